@@ -1,0 +1,1 @@
+"""The master: system, coupling, run, record, figures and the command line ``bladeloss``."""

@@ -1,0 +1,1 @@
+"""The shaft: train data, finite elements, reduction, exact time step, as an FMU."""
