@@ -1,0 +1,52 @@
+"""How a run can end, and what to do about it."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Outcome(Enum):
+    """The end of a run: every member but `FINISHED` means that the record stops early.
+
+    Attributes
+    ----------
+    value : str
+        Stable name, written to the record's attribute ``status``.
+    advice : str
+        One sentence: what it means and what helps.
+    """
+
+    advice: str
+
+    FINISHED = ("finished", "The run reached its end time.")
+    NO_EQUILIBRIUM = (
+        "no-equilibrium",
+        "No static equilibrium was found; check the loads against viscosity, clearance and speed, "
+        "or start with a shallower depth.",
+    )
+    STEP_REFUSED = (
+        "step-refused",
+        "A unit could not carry out a step; the message names it and its state. A smaller step or the "
+        "coupling linear-implicit usually helps.",
+    )
+    UNIT_FAILED = (
+        "unit-failed",
+        "A unit ended with an error that it cannot recover from; the message holds what it logged.",
+    )
+    NOT_FINITE = (
+        "not-finite",
+        "The coupled motion grew without bound; take a smaller step or the coupling linear-implicit.",
+    )
+    INTERRUPTED = ("interrupted", "The run was stopped by the user; the record holds what was simulated.")
+
+    def __new__(cls, value: str, advice: str) -> Outcome:
+        """Make the first item the value, the second the advice."""
+        member = object.__new__(cls)
+        member._value_ = value
+        member.advice = advice
+        return member
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run is finished and its record complete."""
+        return self is Outcome.FINISHED

@@ -1,0 +1,162 @@
+"""The scenario: what is simulated, how deep, and how it is coupled and recorded.
+
+The models below are the specification of the scenario TOML.  They know nothing of
+files or trains; `orchestrator.scenario_file` reads them and checks them against the
+train.  SI units and rad.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Depth = Literal["v1", "v2", "v3"]
+Reduction = Literal["irs", "guyan", "craig-bampton", "none"]
+CouplingName = Literal["linear-implicit", "gauss-seidel", "jacobi"]
+
+DEPTHS: tuple[str, ...] = get_args(Depth)
+REDUCTIONS: tuple[str, ...] = get_args(Reduction)
+COUPLINGS: tuple[str, ...] = get_args(CouplingName)
+
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Model(BaseModel):
+    """Immutable, and an unknown key is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+
+
+class WheelUnbalance(_Model):
+    """Nominal unbalance of one wheel in place of what the balance grade gives.
+
+    Attributes
+    ----------
+    unbalance : float
+        Mass times eccentricity in kg m.
+    phase : float
+        Angle at t = 0 in rad.
+    """
+
+    unbalance: NotNegative
+    phase: Finite = 0.0
+
+
+class Unbalance(_Model):
+    """Nominal unbalance of the train.
+
+    Attributes
+    ----------
+    grade : float or None
+        Balance grade e Ω in m/s (G2.5 is 2.5e-3); None takes the train's own.
+    at : dict
+        Overrides by the name of the wheel.
+    """
+
+    grade: NotNegative | None = None
+    at: dict[str, WheelUnbalance] = {}
+
+
+class BladeFracture(_Model):
+    """A blade breaks off: the unbalance of its wheel jumps.
+
+    Attributes
+    ----------
+    wheel : str
+        Name of the wheel.
+    unbalance : float
+        Mass of the lost part times its radius, in kg m.
+    phase : float
+        Angle of the added unbalance at t = 0, in rad.
+    time : float
+        Instant in s; it need not fall on a macro step.
+    """
+
+    wheel: str
+    unbalance: Positive
+    phase: Finite = 0.0
+    time: NotNegative
+
+
+class FilmResolution(_Model):
+    """Resolution of the films that solve the Reynolds equation.
+
+    Attributes
+    ----------
+    columns : int
+        Around the circumference.
+    rows : int
+        Along the axis.
+    """
+
+    columns: Annotated[int, Field(ge=16, le=1024)] = 48
+    rows: Annotated[int, Field(ge=3, le=64)] = 8
+
+
+class RecordSettings(_Model):
+    """What is kept.
+
+    Attributes
+    ----------
+    interval : float
+        Time between two records in s, rounded to whole macro steps and never less than one. The extremes of
+        every macro step between two records are kept whatever the interval.
+    """
+
+    interval: Positive = 5e-4
+
+
+class Scenario(_Model):
+    """One run.
+
+    Attributes
+    ----------
+    title : str
+        Heads summary and figures.
+    train : str
+        Name of a bundled train, or a train's TOML relative to the scenario's file.
+    reduction : str
+        Reduction of the shaft, one of `REDUCTIONS`.
+    depth : str
+        Modelling depth of every bearing, one of `DEPTHS`.
+    depth_at : dict
+        Depth by name of the bearing, where it differs.
+    unbalance : Unbalance
+        Nominal unbalance.
+    event : BladeFracture or None
+        The blade fracture, if there is one.
+    end : float
+        End time in s.
+    step : float
+        Macro step in s.
+    coupling : str
+        Name of the coupling, one of `COUPLINGS`.
+    film : FilmResolution
+        Resolution of the films.
+    record : RecordSettings
+        What is kept.
+    folder : Path
+        Folder of the scenario's file, from which a relative train path counts. Not a key of the file.
+    """
+
+    title: str = ""
+    train: str
+    reduction: Reduction = "irs"
+    depth: Depth = "v1"
+    depth_at: dict[str, Depth] = {}
+    unbalance: Unbalance = Unbalance()
+    event: BladeFracture | None = None
+    end: Positive
+    step: Positive = 1e-4
+    coupling: CouplingName = "linear-implicit"
+    film: FilmResolution = FilmResolution()
+    record: RecordSettings = RecordSettings()
+    folder: Path = Field(default=Path(), exclude=True)
+
+    def depth_of(self, bearing: str) -> str:
+        """Depth of the bearing of this name."""
+        return self.depth_at.get(bearing, self.depth)
