@@ -1,0 +1,257 @@
+"""The train: geometry, wheels, bearings and couplings of a rotor, as plain frozen data.
+
+Only the standard library is used here, so that the FMU and the master share the
+type without sharing anything else.  SI units and rad throughout.  Nodes lie at the
+boundaries of the shoulders: node 0 at the front end, node k behind shoulder k - 1,
+``len(shoulders) + 1`` nodes in all.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from itertools import pairwise
+
+
+@dataclass(frozen=True)
+class Material:
+    """An isotropic, linear elastic material.
+
+    Attributes
+    ----------
+    name : str
+        The name by which shoulders refer to it.
+    youngs_modulus : float
+        E [Pa].
+    poisson_ratio : float
+        nu.
+    density : float
+        rho [kg/m3].
+    """
+
+    name: str
+    youngs_modulus: float
+    poisson_ratio: float
+    density: float
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / (2 (1 + nu)) [Pa]."""
+        return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+
+
+@dataclass(frozen=True)
+class Shoulder:
+    """A shaft shoulder: a piece of constant circular cross-section, one finite element.
+
+    Attributes
+    ----------
+    length, outer_diameter, inner_diameter : float
+        [m]; an inner diameter of 0 means a solid section.
+    material : Material
+        What it is made of.
+    """
+
+    length: float
+    outer_diameter: float
+    inner_diameter: float
+    material: Material
+
+    @property
+    def area(self) -> float:
+        """Cross-section A [m2]."""
+        return math.pi / 4.0 * (self.outer_diameter**2 - self.inner_diameter**2)
+
+    @property
+    def second_moment(self) -> float:
+        """Second moment of area I about a diameter [m4]."""
+        return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
+
+    @property
+    def section_modulus(self) -> float:
+        """W = I / (outer_diameter / 2) [m3]: bending stress at the surface is M / W."""
+        return 2.0 * self.second_moment / self.outer_diameter
+
+    @property
+    def mass(self) -> float:
+        """Mass [kg]."""
+        return self.material.density * self.area * self.length
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A rigid body on the shaft: a turbine wheel, or a part of a generator rotor.
+
+    Attributes
+    ----------
+    name : str
+        Unique in the train.
+    node : int
+        Node that carries it.
+    mass : float
+        [kg].
+    polar_inertia, transverse_inertia : float
+        About the shaft axis and about a diameter through the node [kg m2].
+    mean_diameter : float
+        Mean diameter of the blading, or of the body [m]; for drawings and reports.
+    balance_factor : float
+        Nominal unbalance as a multiple of what the train's balance grade allows for `mass`.
+    unbalance_phase : float
+        Angle of the nominal unbalance at t = 0, from x to y [rad].
+    """
+
+    name: str
+    node: int
+    mass: float
+    polar_inertia: float
+    transverse_inertia: float
+    mean_diameter: float = 0.0
+    balance_factor: float = 1.0
+    unbalance_phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class BearingSeat:
+    """A journal bearing: where it sits and the data of its film and solid contact.
+
+    Attributes
+    ----------
+    name : str
+        Unique in the train.
+    node : int
+        Node at the bearing's mid-plane.
+    diameter, width, clearance : float
+        Journal diameter d, bearing width b, radial clearance C [m].
+    viscosity : float
+        Dynamic viscosity of the oil [Pa s].
+    ambient_pressure : float
+        Pressure at the bearing's ends, over the cavity [Pa].
+    roughness, contact_modulus, friction : float
+        Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
+    load : float or None
+        Static target load, upwards on the shaft [N]; None: from the catenary.
+    residual_tilt_x, residual_tilt_y : float
+        Rotation of the bearing's axis against the journal's running axis left by the alignment [rad].
+    """
+
+    name: str
+    node: int
+    diameter: float
+    width: float
+    clearance: float
+    viscosity: float
+    ambient_pressure: float = 0.0
+    roughness: float = 3e-6
+    contact_modulus: float = 1e9
+    friction: float = 0.1
+    load: float | None = None
+    residual_tilt_x: float = 0.0
+    residual_tilt_y: float = 0.0
+
+    @property
+    def relative_clearance(self) -> float:
+        """Relative clearance psi = C / (d/2)."""
+        return 2.0 * self.clearance / self.diameter
+
+    def sommerfeld(self, force: float, speed: float) -> float:
+        """So = F psi^2 / (b d eta omega) for a force [N] at a speed [rad/s]."""
+        return force * self.relative_clearance**2 / (self.width * self.diameter * self.viscosity * speed)
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """A coupling: the node at which two rotors are joined rigidly, aligned free of moment."""
+
+    name: str
+    node: int
+
+
+@dataclass(frozen=True)
+class Train:
+    """A turbine train.
+
+    Attributes
+    ----------
+    name : str
+        Its name, also that of its FMU.
+    speed : float
+        Rated speed [rad/s], positive from x to y.
+    rayleigh_alpha, rayleigh_beta : float
+        Structural damping D = alpha M + beta K [1/s], [s].
+    balance_grade : float
+        Permissible e_per omega of ISO 21940-11 [m/s]; G2.5 is 2.5e-3.
+    shoulders, wheels, bearings, couplings : tuple
+        From front to rear.
+    """
+
+    name: str
+    speed: float
+    rayleigh_alpha: float
+    rayleigh_beta: float
+    balance_grade: float
+    shoulders: tuple[Shoulder, ...]
+    wheels: tuple[Wheel, ...]
+    bearings: tuple[BearingSeat, ...]
+    couplings: tuple[Coupling, ...] = ()
+
+    @cached_property
+    def z(self) -> tuple[float, ...]:
+        """Axial positions of the nodes [m], exactly rounded so that they do not drift."""
+        lengths = [s.length for s in self.shoulders]
+        return tuple(math.fsum(lengths[:k]) for k in range(len(lengths) + 1))
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes."""
+        return len(self.shoulders) + 1
+
+    @property
+    def length(self) -> float:
+        """Length of the shaft [m]."""
+        return self.z[-1]
+
+    @property
+    def mass(self) -> float:
+        """Mass of shaft and wheels [kg]."""
+        return math.fsum(s.mass for s in self.shoulders) + math.fsum(w.mass for w in self.wheels)
+
+    @property
+    def nominal_unbalance(self) -> tuple[float, ...]:
+        """Nominal unbalance of each wheel [kg m]: balance_factor (balance_grade / speed) mass."""
+        eccentricity = self.balance_grade / self.speed
+        return tuple(w.balance_factor * eccentricity * w.mass for w in self.wheels)
+
+    @property
+    def sections(self) -> tuple[tuple[int, int], ...]:
+        """First and last node of each rotor between couplings, front to rear."""
+        cuts = [0, *(c.node for c in self.couplings), self.nodes - 1]
+        return tuple(pairwise(cuts))
+
+    def to_json(self) -> str:
+        """Write as JSON; floats survive the round trip bit by bit."""
+        data = {key: value for key, value in asdict(self).items() if key != "shoulders"}
+        materials = {s.material.name: asdict(s.material) for s in self.shoulders}
+        data["materials"] = list(materials.values())
+        data["shoulders"] = [
+            [s.length, s.outer_diameter, s.inner_diameter, s.material.name] for s in self.shoulders
+        ]
+        return json.dumps(data, allow_nan=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Train:
+        """Read what `to_json` wrote.
+
+        Raises
+        ------
+        ValueError, KeyError, TypeError
+            If the text is not a train.
+        """
+        data = json.loads(text)
+        materials = {m["name"]: Material(**m) for m in data.pop("materials")}
+        data["shoulders"] = tuple(Shoulder(*row[:3], materials[row[3]]) for row in data["shoulders"])
+        data["wheels"] = tuple(Wheel(**w) for w in data["wheels"])
+        data["bearings"] = tuple(BearingSeat(**b) for b in data["bearings"])
+        data["couplings"] = tuple(Coupling(**c) for c in data["couplings"])
+        return cls(**data)
