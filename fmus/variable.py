@@ -1,0 +1,95 @@
+"""A scalar variable of a unit and the units of measurement, as FMI 2.0 knows them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Causality = Literal["input", "output", "parameter", "calculatedParameter"]
+Kind = Literal["Real", "Integer", "Boolean", "String"]
+Variability = Literal["continuous", "discrete", "fixed", "tunable"]
+Value = float | int | bool | str
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One scalar variable of a unit as other tools see it.
+
+    Attributes
+    ----------
+    name : str
+        Structured name (FMI 2.0, section 2.2.9).
+    causality : str
+        FMI causality.
+    unit : str
+        Name of the unit, a key of `UNITS`; empty for dimensionless.
+    description : str
+        One line, with sign convention where it matters.
+    start : float, int, bool, str or None
+        Start value of inputs and parameters.
+    minimum, nominal : float or None
+        For Real variables, where physics gives them.
+    depends_on : tuple of str
+        Names of the inputs an output depends on directly.
+    starts_on : tuple of str or None
+        Names of the inputs and parameters on which the initial value of an output
+        or a calculated parameter depends; None: possibly on all of them.
+    kind : str
+        FMI type.
+    lazy : bool
+        Computed only when asked for; costs nothing otherwise.
+    """
+
+    name: str
+    causality: Causality
+    unit: str = ""
+    description: str = ""
+    start: Value | None = None
+    minimum: float | None = None
+    nominal: float | None = None
+    depends_on: tuple[str, ...] = ()
+    starts_on: tuple[str, ...] | None = None
+    kind: Kind = "Real"
+    lazy: bool = False
+
+    @property
+    def variability(self) -> Variability:
+        """FMI variability that follows from causality and type."""
+        if self.causality in ("parameter", "calculatedParameter"):
+            return "fixed"
+        return "continuous" if self.kind == "Real" else "discrete"
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit as exponents of the SI base units (kg, m, s, rad)."""
+
+    kg: int = 0
+    m: int = 0
+    s: int = 0
+    rad: int = 0
+
+
+UNITS: dict[str, Unit] = {
+    "m": Unit(m=1),
+    "m/s": Unit(m=1, s=-1),
+    "m/s2": Unit(m=1, s=-2),
+    "rad": Unit(rad=1),
+    "rad/s": Unit(s=-1, rad=1),
+    "s": Unit(s=1),
+    "N": Unit(kg=1, m=1, s=-2),
+    "N.m": Unit(kg=1, m=2, s=-2),
+    "N/m": Unit(kg=1, s=-2),
+    "N/rad": Unit(kg=1, m=1, s=-2, rad=-1),
+    "N.m/rad": Unit(kg=1, m=2, s=-2, rad=-1),
+    "N.s/m": Unit(kg=1, s=-1),
+    "N.s/rad": Unit(kg=1, m=1, s=-1, rad=-1),
+    "N.s": Unit(kg=1, m=1, s=-1),
+    "N.m.s/rad": Unit(kg=1, m=2, s=-1, rad=-1),
+    "Pa": Unit(kg=1, m=-1, s=-2),
+    "Pa.s": Unit(kg=1, m=-1, s=-1),
+    "W": Unit(kg=1, m=2, s=-3),
+    "J": Unit(kg=1, m=2, s=-2),
+    "kg": Unit(kg=1),
+    "kg.m": Unit(kg=1, m=1),
+}
