@@ -27,8 +27,12 @@ def train() -> Train:
         outer = 0.8 if near < 0.8 else 1.05 if near < 1.4 else 1.5
         shoulders.append(Shoulder(right - left, 0.45 if middle > 62.5 else outer, 0.0, STEEL))
     wheels = []
-    for body, (front, rear) in {"HP": (3.0, 7.0), "LP1": (13.5, 18.5), "LP2": (24.5, 29.5),
-                                "LP3": (35.5, 40.5)}.items():  # fmt: skip
+    for body, (front, rear) in {
+        "HP": (3.0, 7.0),
+        "LP1": (13.5, 18.5),
+        "LP2": (24.5, 29.5),
+        "LP3": (35.5, 40.5),
+    }.items():
         for j, z in enumerate(np.linspace(front, rear, 7), 1):
             diameter = (1.9 if body == "HP" else 2.2) + (0 if body == "HP" else 0.5 * abs(j - 4) / 3)
             wheels.append(Wheel(f"{body}-{j}", int(np.argmin(abs(edges - z))), 2e4, 1e4, 6e3, diameter))
@@ -37,12 +41,26 @@ def train() -> Train:
         for name, z in zip(NAMES, Z, strict=True)
     ]
     couplings = [Coupling(f"C{z:.0f}", int(np.argmin(abs(edges - z)))) for z in (10, 21.5, 32.5, 44.2, 62.5)]
-    return Train("synthetic", SPEED, 0.5, 1e-5, 2.5e-3, tuple(shoulders), tuple(wheels), tuple(bearings),
-                 tuple(couplings))  # fmt: skip
+    return Train(
+        "synthetic",
+        SPEED,
+        0.5,
+        1e-5,
+        2.5e-3,
+        tuple(shoulders),
+        tuple(wheels),
+        tuple(bearings),
+        tuple(couplings),
+    )
 
 
 def record(
-    depth: str = "v1", *, end: float = 2.0, fracture: float | None = 1.0, interval: float = 1e-3, seed: int = 1
+    depth: str = "v1",
+    *,
+    end: float = 2.0,
+    fracture: float | None = 1.0,
+    interval: float = 1e-3,
+    seed: int = 1,
 ) -> xr.Dataset:
     """A record of the whole train; before the event everything is a mean plus one harmonic."""
     rng = np.random.default_rng(seed)
@@ -63,9 +81,11 @@ def record(
     moment = (0.03e6 * wave + 1.6e6 * beat[:, None] * (half + rough))[:, None, :] * near * (depth == "v1")
     lowest = {"v1": 1.05, "v2": 0.8, "v3": 0.5}[depth]
     ripple = 0.5 + 0.5 * np.cos(angle + 0.3) * np.where(grown > 0, np.cos(angle / 2) ** 2, 1)
-    gap = gap_mean + 5e-6 * np.cos(angle)[:, None] * shape - (
-        lowest * gap_mean * np.minimum(beat, 1.0) * ripple
-    )[:, None] * shape  # fmt: skip
+    gap = (
+        gap_mean
+        + 5e-6 * np.cos(angle)[:, None] * shape
+        - (lowest * gap_mean * np.minimum(beat, 1.0) * ripple)[:, None] * shape
+    )
     gap = np.maximum(gap, 2e-6)
     centre = gap + (15e-6 + 40e-6 * beat[:, None] * shape if depth == "v1" else 0.0)
     contact = np.where(gap < 8e-6, (8e-6 - gap) / 6e-6 * 0.9e6, 0.0)
@@ -103,16 +123,23 @@ def record(
         "normal_stress_position": (("time",), z[stress.argmax(axis=1)]),
     }
     attributes: dict[str, object] = {
-        "title": "synthetic", "coupling": "linear-implicit", "macro_step": 1e-4, "speed": SPEED,
+        "title": "synthetic",
+        "coupling": "linear-implicit",
+        "macro_step": 1e-4,
+        "speed": SPEED,
         "status": "finished",
-    }  # fmt: skip
+    }
     if fracture is not None:
         attributes["fracture_time"] = fracture
     return xr.Dataset(
         variables,
         coords={
-            "time": t, "bearing": list(NAMES), "axis": ["x", "y"], "z": ("node", z),
-            "depth": ("bearing", [depth] * len(NAMES)), "bearing_z": ("bearing", list(Z)),
+            "time": t,
+            "bearing": list(NAMES),
+            "axis": ["x", "y"],
+            "z": ("node", z),
+            "depth": ("bearing", [depth] * len(NAMES)),
+            "bearing_z": ("bearing", list(Z)),
         },
         attrs=attributes,
-    )  # fmt: skip
+    )

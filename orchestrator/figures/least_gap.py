@@ -1,0 +1,119 @@
+"""Least gap of the analysed bearing over time, film and centre line (Figure 7 of the paper)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from orchestrator import statistics
+from orchestrator.figures import panels, style
+from orchestrator.windows import phases
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def _curves(record: xr.Dataset, bearing: str) -> list[panels.Curve]:
+    """Least gap of the centre line, where it differs, and of the whole film."""
+    time = np.asarray(record["time"].values, dtype=float)
+    film = statistics.series(record, "least_gap", bearing)
+    centre = statistics.series(record, "centre_line_gap", bearing)
+    depth = style.depth_at(record, bearing)
+    curves = []
+    if not np.array_equal(film, centre):
+        least = statistics.interval_extreme(record, "centre_line_gap_min", bearing, centre)
+        curves.append(panels.Curve(time, centre, style.CENTRE_LINE, "centre line", least))
+    least = statistics.interval_extreme(record, "least_gap_min", bearing, film)
+    label = f"whole film, {style.run_name(record, bearing)}"
+    return [*curves, panels.Curve(time, film, style.colour_of(depth), label, least)]
+
+
+def draw_contact(
+    axes: Axes, view: panels.View, record: xr.Dataset, bearing: str, *, height: float = 0.035
+) -> None:
+    """Strip along the bottom where asperities carry load."""
+    threshold = statistics.contact_threshold(record, bearing, phases(record))
+    samples = statistics.series(record, "contact_force", bearing)
+    contact = statistics.interval_extreme(record, "contact_force_max", bearing, samples)
+    touching = contact > threshold
+    if touching.any():
+        # A sample speaks for the interval that it closes, so the strip reaches back to the one before.
+        touching[:-1] |= touching[1:]
+        axes.fill_between(
+            view.shown_all(np.asarray(record["time"].values, dtype=float)),
+            0.0,
+            height,
+            where=touching,
+            transform=axes.get_xaxis_transform(),
+            color=style.CONTACT,
+            linewidth=0.5,
+            label="solid contact",
+            zorder=3,
+        )
+
+
+def _title(record: xr.Dataset, bearing: str) -> str:
+    found = phases(record)
+    threshold = statistics.contact_threshold(record, bearing, found)
+    parts = []
+    for phase in found:
+        figures = statistics.bearing_statistics(record, bearing, phase, contact_from=threshold)
+        text = (
+            f"{phase.name}: mean {style.GAP.text(figures.least_gap_mean)}"
+            f" ± {figures.least_gap_harmonic * style.GAP.factor:.1f},"
+            f" least {style.GAP.text(figures.least_gap_min)}"
+        )
+        if figures.contact_first is not None:
+            text += f", contact {100 * figures.contact_share:.0f} % of the time"
+        parts.append(text)
+    return "   |   ".join(parts)
+
+
+def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure:
+    """Draw the least gap of the whole film and of the centre line of one bearing.
+
+    Parameters
+    ----------
+    records : sequence of xarray.Dataset
+        One run or several of the same scenario; each has its row.
+    bearing : str, optional
+        The bearing, by default the analysed bearing of the first record.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Left the whole time, right a few revolutions around the event; a strip along the
+        bottom marks solid contact.
+    """
+    bearing = bearing or statistics.analysed_bearing(records[0])
+    rows = len(records)
+    figure = style.new_figure(
+        12.0,
+        1.6 + 2.9 * rows,
+        f"Least gap, {bearing}",
+        style.run_caption(records[0]) if rows == 1 else str(records[0].attrs.get("title", "")),
+    )
+    grid = figure.subplots(rows, 2, sharey=True, sharex="col", squeeze=False, width_ratios=[1.5, 1.0])
+    views = (panels.whole_run(records), panels.close_up(records))
+    for row, record in enumerate(records):
+        for column, view in enumerate(views):
+            axes = grid[row, column]
+            for curve in _curves(record, bearing):
+                panels.draw_curve(axes, view, curve, style.GAP)
+            draw_contact(axes, view, record, bearing)
+            panels.draw_event(axes, view, record, named=column == 0)
+            style.dress(axes)
+            panels.time_axis(axes, view, labelled=row == rows - 1)
+        grid[row, 0].set_ylabel(style.GAP.axis)
+        grid[row, 0].set_title(
+            style.row_prefix(records, record, bearing) + _title(record, bearing),
+            loc="left",
+            fontsize=style.FONT - 0.5,
+        )
+    panels.room_above(list(grid.flat), 0.08)
+    panels.legend_below(figure, list(grid.flat))
+    return figure

@@ -1,0 +1,131 @@
+"""How every figure looks: one colour per modelling depth, units, captions.
+
+The colours are those of Okabe and Ito (2008), which stay apart for the colour-blind
+and in grey print.  Figures show MN, kN m, um, mm and N/mm² of what the record holds in SI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+DEPTH_COLOURS = {"v1": "#D55E00", "v2": "#0072B2", "v3": "#009E73"}
+OTHER_COLOUR = "#7B4F9E"
+DEPTH_NAMES = {
+    "v1": "V1: Reynolds with misalignment",
+    "v2": "V2: Reynolds, aligned",
+    "v3": "V3: short bearing",
+}
+CENTRE_LINE = "#4D4D4D"
+EVENT = "#000000"
+MEAN = "#000000"
+CONTACT = "#AA0055"
+FONT = 9.0
+DPI = 150
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """How a quantity is drawn.
+
+    Attributes
+    ----------
+    label : str
+        Name of the axis, without the unit.
+    unit : str
+        Unit shown.
+    factor : float
+        Shown value = SI value times this.
+    digits : str
+        Format of a value in a caption.
+    """
+
+    label: str
+    unit: str
+    factor: float
+    digits: str = ".3g"
+
+    @property
+    def axis(self) -> str:
+        """Label of an axis."""
+        return f"{self.label} [{self.unit}]"
+
+    def text(self, value: float) -> str:
+        """An SI value as shown, with its unit."""
+        return f"{value * self.factor:{self.digits}} {self.unit}"
+
+
+FORCE = Quantity("bearing force", "MN", 1e-6, ".2f")
+MOMENT = Quantity("bearing moment", "MN m", 1e-6, ".2f")
+GAP = Quantity("least gap", "µm", 1e6, ".1f")
+AMPLITUDE = Quantity("vibration amplitude", "mm", 1e3, ".2f")
+STRESS = Quantity("normal stress", "N/mm²", 1e-6, ".1f")
+
+
+def depth_at(record: xr.Dataset, bearing: str | None = None) -> str:
+    """Depth of one bearing; of all bearings when none is named, ``mixed`` when they differ."""
+    depths = record["depth"]
+    if bearing is not None:
+        return str(depths.sel(bearing=bearing).values)
+    found = sorted({str(value) for value in depths.values})
+    return found[0] if len(found) == 1 else "mixed"
+
+
+def colour_of(depth: str) -> str:
+    """The colour of a modelling depth, the same in every figure."""
+    return DEPTH_COLOURS.get(depth, OTHER_COLOUR)
+
+
+def depth_name(depth: str) -> str:
+    """Depth and what it stands for."""
+    return DEPTH_NAMES.get(depth, depth)
+
+
+def run_name(record: xr.Dataset, bearing: str | None = None) -> str:
+    """What tells a run from others of the same scenario: its depth, and that of the bearing shown."""
+    depth = depth_at(record)
+    if depth != "mixed":
+        return depth_name(depth)
+    here = f", here {depth_name(depth_at(record, bearing))}" if bearing is not None else ""
+    return f"mixed depths{here}"
+
+
+def row_prefix(records: Sequence[xr.Dataset], record: xr.Dataset, bearing: str | None = None) -> str:
+    """What a panel's title begins with when a figure shows several runs."""
+    return f"{run_name(record, bearing).partition(':')[0]}:  " if len(records) > 1 else ""
+
+
+def run_caption(record: xr.Dataset) -> str:
+    """Scenario, depth, coupling and macro step of a run in one line."""
+    attributes = record.attrs
+    parts = [str(attributes.get("title", "")), run_name(record), str(attributes.get("coupling", ""))]
+    if "macro_step" in attributes:
+        parts.append(f"H = {float(attributes['macro_step']) * 1e3:.3g} ms")
+    if str(attributes.get("status", "finished")) != "finished":
+        parts.append(f"partial run: {attributes['status']}")
+    return "  ·  ".join(part for part in parts if part)
+
+
+def new_figure(width: float, height: float, title: str, caption: str) -> Figure:
+    """An empty figure with its headline and the run it shows; sizes in inches."""
+    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    figure.suptitle(f"{title}\n", x=0.01, ha="left", fontsize=FONT + 4, fontweight="bold", linespacing=1.6)
+    figure.text(0.01, 1.0 - 0.42 / height, caption, ha="left", va="top", fontsize=FONT, color="#444444")
+    return figure
+
+
+def dress(axes: Axes) -> None:
+    """Quiet frame and grid."""
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(True, color="#DDDDDD", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelsize=FONT - 1)
+    axes.xaxis.label.set_fontsize(FONT)
+    axes.yaxis.label.set_fontsize(FONT)
