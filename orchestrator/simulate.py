@@ -22,8 +22,8 @@ class Stage(StrEnum):
 
 
 Progress = Callable[[Stage, float], None]
-"""Called with the stage and the simulated time in s: once at the start of each stage, then every macro step of
-`Stage.RUN` (the callee decides how often it redraws)."""
+"""Called with the stage and the simulated time in s: once at the start of each stage, then after every
+macro step of `Stage.RUN` (the callee decides how often it redraws)."""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,180 @@
+"""Units and the connections between them, apart from the order in which a coupling runs them.
+
+All outputs of the graph lie in one array and all inputs in another; each unit is bound
+to its stretch of both, and a connection is a pair of indices.  Moving values along the
+connections is then one indexed copy for a whole group of units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.errors import PortError
+from orchestrator.unit import Block, Unit
+
+
+@dataclass(frozen=True)
+class Connection:
+    """One value that travels from an output to an input.
+
+    Attributes
+    ----------
+    source, target : str
+        Names of the units.
+    output, input : str
+        Names of their variables.
+    """
+
+    source: str
+    output: str
+    target: str
+    input: str
+
+
+class Group:
+    """Units that a coupling feeds, steps and reads together; made by `Graph.group`.
+
+    Attributes
+    ----------
+    units : tuple of Unit
+        In the order in which they step.
+    step_time, exchange_time : float
+        Wall time so far in the units' steps, and in moving values to and from them, in s.
+    """
+
+    def __init__(self, graph: Graph, names: Iterable[str]) -> None:
+        members = [graph.members[name] for name in names]
+        self.units: tuple[Unit, ...] = tuple(m.unit for m in members)
+        self._graph = graph
+        self._targets = np.concatenate([m.targets for m in members])
+        self._sources = np.concatenate([m.sources for m in members])
+        self._sets = tuple(m.inputs.set for m in members)
+        self._gets = tuple(m.outputs.get for m in members)
+        self.step_time = 0.0
+        self.exchange_time = 0.0
+
+    def feed(self) -> None:
+        """Move the newest outputs along the connections into the inputs of these units."""
+        start = perf_counter()
+        self._graph.inputs[self._targets] = self._graph.outputs[self._sources]
+        for call in self._sets:
+            call()
+        self.exchange_time += perf_counter() - start
+
+    def step(self, time: float, step: float) -> None:
+        """Carry out the macro step from `time` in every unit; they are independent of one another.
+
+        Raises
+        ------
+        UnitError
+            From the first unit that does not accept the step.
+        """
+        start = perf_counter()
+        try:
+            for unit in self.units:
+                unit.do_step(time, step)
+        finally:
+            self.step_time += perf_counter() - start
+
+    def fetch(self) -> None:
+        """Read the outputs of these units."""
+        start = perf_counter()
+        for call in self._gets:
+            call()
+        self.exchange_time += perf_counter() - start
+
+    @property
+    def evaluations(self) -> int:
+        """Steps that these units have begun."""
+        return sum(unit.evaluations for unit in self.units)
+
+
+@dataclass(frozen=True)
+class Member:
+    """A unit in the graph.
+
+    Attributes
+    ----------
+    unit : Unit
+        The instance.
+    inputs, outputs : Block
+        Its stretches of the graph's two arrays.
+    targets, sources : ndarray of int
+        The connections into it: ``graph.inputs[targets] = graph.outputs[sources]``.
+    """
+
+    unit: Unit
+    inputs: Block
+    outputs: Block
+    targets: NDArray[np.intp]
+    sources: NDArray[np.intp]
+
+
+class Graph:
+    """Units joined by connections.
+
+    Parameters
+    ----------
+    units : sequence of (Unit, inputs, outputs)
+        Units of unique names with the names of the inputs and outputs that travel.
+    connections : iterable of Connection
+        An input without a connection keeps its value in `inputs`, at first its start value.
+
+    Raises
+    ------
+    PortError
+        When two units have the same name or a unit lacks one of the variables.
+
+    Attributes
+    ----------
+    inputs, outputs : ndarray
+        The values of all units, one after the other.
+    members : dict
+        The units by name.
+    """
+
+    def __init__(
+        self,
+        units: Sequence[tuple[Unit, Sequence[str], Sequence[str]]],
+        connections: Iterable[Connection],
+    ) -> None:
+        input_at = _positions((unit.name, names) for unit, names, _ in units)
+        output_at = _positions((unit.name, names) for unit, _, names in units)
+        self.inputs = np.zeros(len(input_at))
+        self.outputs = np.zeros(len(output_at))
+        links: dict[str, list[tuple[int, int]]] = {unit.name: [] for unit, _, _ in units}
+        for c in connections:
+            links[c.target].append((input_at[c.target, c.input], output_at[c.source, c.output]))
+        self.members: dict[str, Member] = {}
+        first_input = first_output = 0
+        for unit, input_names, output_names in units:
+            own_inputs = self.inputs[first_input : first_input + len(input_names)]
+            own_outputs = self.outputs[first_output : first_output + len(output_names)]
+            pairs = np.array(links[unit.name], dtype=np.intp).reshape(-1, 2)
+            own_inputs[:] = [float(unit.variable(name).start or 0.0) for name in input_names]
+            self.members[unit.name] = Member(
+                unit,
+                Block(unit, input_names, own_inputs),
+                Block(unit, output_names, own_outputs),
+                pairs[:, 0].copy(),
+                pairs[:, 1].copy(),
+            )
+            first_input += len(input_names)
+            first_output += len(output_names)
+
+    def group(self, names: Iterable[str]) -> Group:
+        """Return the units of these names as a group."""
+        return Group(self, names)
+
+
+def _positions(parts: Iterable[tuple[str, Sequence[str]]]) -> dict[tuple[str, str], int]:
+    keys = [(unit, name) for unit, names in parts for name in names]
+    positions = {key: index for index, key in enumerate(keys)}
+    if len(positions) < len(keys):
+        raise PortError("every unit of a system needs a name of its own")
+    return positions

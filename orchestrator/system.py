@@ -1,0 +1,175 @@
+"""The train as a system of units: one rotor and its bearings, connected by the port."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmus import port
+from orchestrator.errors import PortError
+from orchestrator.graph import Connection, Graph, Group
+from orchestrator.unit import Unit
+
+Array = NDArray[np.float64]
+
+RESPONSE = {v.name: index for index, v in enumerate(port.BEARING_OUTPUTS)}
+"""Column of each bearing output in `System.responses`."""
+
+_BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
+_BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
+_FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
+_PER_LAW = len(port.LAW)
+_PER_JOURNAL = len(port.JOURNAL)
+
+
+class Wiring(Enum):
+    """What a coupling carries from the bearings to the rotor."""
+
+    LAW = "affine law"
+    FORCE = "force only"
+
+
+class System:
+    """Rotor and bearings with the values that travel between them.
+
+    Parameters
+    ----------
+    rotor : Unit
+        Carries `port.rotor` for these bearings.
+    bearings : sequence of Unit
+        In the order of the rotor's bearings.
+    wiring : Wiring
+        What the bearings give the rotor.
+
+    Raises
+    ------
+    PortError
+        Listing every variable of the port that a unit lacks or declares differently.
+
+    Attributes
+    ----------
+    journals : ndarray (bearings, 8)
+        q and v of each journal, the rotor's outputs.
+    responses : ndarray (bearings, 52)
+        The bearings' outputs, columns as in `RESPONSE`.
+    laws : ndarray (bearings, 36)
+        F0, K, C that the rotor was given last.
+    groups : tuple of Group
+        Rotor and bearings, in the order of a sequential coupling.
+    """
+
+    def __init__(self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW) -> None:
+        n = len(bearings)
+        check_port(rotor, bearings)
+        self.rotor = rotor
+        self.bearings = tuple(bearings)
+        self.wiring = wiring
+        rotor_inputs = (port.SPEED, *_at_bearings(n, port.LAW))
+        rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
+        self.graph = Graph(
+            [
+                (rotor, rotor_inputs, rotor_outputs),
+                *((bearing, _BEARING_INPUTS, _BEARING_OUTPUTS) for bearing in bearings),
+            ],
+            port_connections(rotor.name, [b.name for b in bearings], wiring),
+        )
+        inputs, outputs = self.graph.inputs, self.graph.outputs
+        self.journals: Array = outputs[: n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
+        self.responses: Array = outputs[n * _PER_JOURNAL :].reshape(n, len(_BEARING_OUTPUTS))
+        self.laws: Array = inputs[1 : 1 + n * _PER_LAW].reshape(n, _PER_LAW)
+        self._rotor_speed = inputs[:1]
+        self.bearing_inputs: Array = inputs[1 + n * _PER_LAW :].reshape(n, len(_BEARING_INPUTS))
+        self.rotor_group: Group = self.graph.group([rotor.name])
+        self.bearing_group: Group = self.graph.group([b.name for b in bearings])
+        self.groups = (self.rotor_group, self.bearing_group)
+        self._defect = np.empty((n, 4))
+
+    @property
+    def units(self) -> tuple[Unit, ...]:
+        """Rotor and bearings."""
+        return (self.rotor, *self.bearings)
+
+    @property
+    def forces(self) -> Array:
+        """Wrench of each bearing on the rotor (bearings, 4), a view."""
+        return self.responses[:, _FORCE]
+
+    def set_speed(self, speed: float) -> None:
+        """Give every unit the rotor speed in rad/s with its next inputs."""
+        self._rotor_speed[0] = speed
+        self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
+
+    def defect(self) -> Array:
+        """Return F(q, v) - (F0 - K q - C v) at the newest state with the law that the rotor used.
+
+        Returns
+        -------
+        ndarray (bearings, 4)
+            Overwritten by the next call.
+        """
+        q, v = self.journals[:, :4, None], self.journals[:, 4:, None]
+        stiffness = self.laws[:, 4:20].reshape(-1, 4, 4)
+        damping = self.laws[:, 20:].reshape(-1, 4, 4)
+        np.subtract(self.forces, self.laws[:, :4], out=self._defect)
+        self._defect += (stiffness @ q + damping @ v)[:, :, 0]
+        return self._defect
+
+    def close(self) -> None:
+        """Free all units."""
+        for unit in self.units:
+            unit.close()
+
+
+def port_connections(rotor: str, bearings: Sequence[str], wiring: Wiring) -> Iterator[Connection]:
+    """Connections of the port between units of these names."""
+    sources = port.LAW if wiring is Wiring.LAW else port.FORCE
+    for index, bearing in enumerate(bearings, 1):
+        for name in port.JOURNAL:
+            yield Connection(rotor, port.at_bearing(index, name), bearing, name)
+        for output, name in zip(sources, port.LAW, strict=False):
+            yield Connection(bearing, output, rotor, port.at_bearing(index, name))
+
+
+def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
+    """Compare the units with the port.
+
+    Raises
+    ------
+    PortError
+        One line for each variable that is missing or differs in causality or unit.
+    """
+    by_name = {v.name: v for v in port.rotor([b.name for b in bearings], (), 0)}
+    needed = (port.SPEED, *_at_bearings(len(bearings), (*port.LAW, *port.JOURNAL)))
+    problems = list(_differences(rotor, (by_name[name] for name in needed)))
+    seen = set()
+    for bearing in bearings:
+        if bearing.file not in seen:
+            seen.add(bearing.file)
+            problems += _differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS))
+    surplus = port.at_bearing(len(bearings) + 1, port.JOURNAL[0])
+    if surplus in rotor.file.variables:
+        problems.append(f"{rotor.file.path}: has more than the {len(bearings)} bearings of the train")
+    if problems:
+        raise PortError("\n".join(problems))
+
+
+def _differences(unit: Unit, variables: Iterable[port.Variable]) -> Iterator[str]:
+    for wanted in variables:
+        found = unit.file.variables.get(wanted.name)
+        where = f"{unit.file.path}: {wanted.name}"
+        if found is None:
+            yield f"{where} is missing ({wanted.causality}, {wanted.unit or 'dimensionless'})"
+        elif found.causality != wanted.causality or found.type != wanted.kind:
+            yield f"{where} is {found.causality} {found.type}, not {wanted.causality} {wanted.kind}"
+        elif (found.unit or "") not in ("", wanted.unit):
+            yield f"{where} is in {found.unit}, not in {wanted.unit or 'no unit'}"
+
+
+def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:
+    names = tuple(names)
+    for index in range(1, count + 1):
+        for name in names:
+            yield port.at_bearing(index, name)

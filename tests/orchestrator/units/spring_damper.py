@@ -1,0 +1,45 @@
+"""A bearing of the port: F = -k q - c v - k3 |q|^2 q on each translation, k and c also on the tilts."""
+
+import numpy as np
+from port_unit import PortUnit
+
+from fmus import port
+
+_OWN = (
+    port.Variable("spring.stiffness", "parameter", start=1e6),
+    port.Variable("spring.damping", "parameter", start=1e3),
+    port.Variable("spring.cubic", "parameter", start=0.0),
+    port.Variable("refuse_after", "parameter", "s", start=1e9),
+    port.Variable("break_after", "parameter", "s", start=1e9),
+)
+
+
+class SpringDamper(PortUnit):
+    def __init__(self, **kwargs):
+        super().__init__(port.BEARING + _OWN, **kwargs)
+
+    def solve(self):
+        p = self.values
+        q = np.array(self.read(port.JOURNAL[:4])) - self.read([f"offset.{n}" for n in port.POSITION])
+        v = np.array(self.read(port.JOURNAL[4:]))
+        k, c, k3 = p["spring.stiffness"], p["spring.damping"], p["spring.cubic"]
+        r = np.array([q[0], q[1], 0.0, 0.0])
+        force = -k * q - c * v - k3 * (r @ r) * r
+        stiffness = k * np.eye(4) + k3 * ((r @ r) * np.diag([1.0, 1.0, 0.0, 0.0]) + 2.0 * np.outer(r, r))
+        damping = c * np.eye(4)
+        absolute = np.array(self.read(port.JOURNAL[:4]))
+        self.write(port.FORCE, force)
+        self.write(port.F0, force + stiffness @ absolute + damping @ v)
+        self.write(port.K, stiffness.ravel())
+        self.write(port.C, damping.ravel())
+        self.write(["h_min", "h_min_centre"], [p["clearance"] - np.hypot(q[0], q[1])] * 2)
+        self.write(["eccentricity"], [np.hypot(q[0], q[1]) / p["clearance"]])
+
+    def do_step(self, current_time, step_size):
+        end = current_time + step_size
+        if end > self.values["break_after"]:
+            raise RuntimeError("the spring is broken")
+        if end > self.values["refuse_after"]:
+            return self.refuse("100% of the travel is used up")
+        self.solve()
+        return True
