@@ -1,0 +1,79 @@
+"""Maps of the shaft kept for the speeds and step sizes in use."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor_fmu.assembly import ShaftModel
+from rotor_fmu.condensation import CondensedShaft, condense_harmonic
+from rotor_fmu.modal_shaft import ModalShaft
+from rotor_fmu.state_space import StepMaps, harmonic_map, step_maps
+from rotor_fmu.unbalance import Unbalance
+
+Array = NDArray[np.float64]
+Item = TypeVar("Item")
+
+CAPACITY = 8
+"""Maps kept of each kind: a step size, its halves while a step is repeated, and a second speed."""
+
+
+class MapCache:
+    """Everything that depends on speed and step size only, computed at first use.
+
+    The step size is used to nine significant digits: communication instants that are
+    sums of steps differ in their last digits and would ask for ever new maps.
+
+    Parameters
+    ----------
+    model, shaft : ShaftModel, ModalShaft
+        The shaft, unreduced and reduced.
+    unbalance : Unbalance
+        Its excitation.
+    """
+
+    def __init__(self, model: ShaftModel, shaft: ModalShaft, unbalance: Unbalance) -> None:
+        self._model, self._shaft, self._unbalance = model, shaft, unbalance
+        self._steps: OrderedDict[tuple[float, float], StepMaps] = OrderedDict()
+        self._kicks: OrderedDict[tuple[float, float], Array] = OrderedDict()
+        self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
+
+    def step(self, speed: float, step: float) -> StepMaps:
+        """Maps over a step, for the nominal unbalance and the lost blade's."""
+        rounded = float(f"{step:.8e}")
+        return _recall(self._steps, (speed, rounded), lambda: self._new_step(speed, rounded))
+
+    def kick(self, speed: float, duration: float) -> Array:
+        """State after `duration` from rest under the lost blade's unbalance alone, (2 m, 2)."""
+        return _recall(self._kicks, (speed, duration), lambda: self._new_kick(speed, duration))
+
+    def harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
+        """Steady vibration under the nominal unbalance, condensed onto the journals."""
+        return _recall(self._harmonics, speed, lambda: self._new_harmonic(speed))
+
+    def _new_step(self, speed: float, step: float) -> StepMaps:
+        nominal = self._unbalance.nominal_force(self._shaft, speed)
+        blade = self._unbalance.blade_force(self._shaft, speed)
+        return step_maps(self._shaft, speed, step, np.hstack([nominal, blade]))
+
+    def _new_kick(self, speed: float, duration: float) -> Array:
+        return harmonic_map(self._shaft, speed, duration, self._unbalance.blade_force(self._shaft, speed))
+
+    def _new_harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
+        nominal = self._unbalance.nominal_force(self._shaft, speed)
+        return condense_harmonic(self._model, self._shaft, speed, nominal)
+
+
+def _recall(items: OrderedDict, key: object, make: Callable[[], Item]) -> Item:
+    """The item of a key, made if new; the least recently used one gives way."""
+    if key in items:
+        items.move_to_end(key)
+    else:
+        items[key] = make()
+        if len(items) > CAPACITY:
+            items.popitem(last=False)
+    return items[key]

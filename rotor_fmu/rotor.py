@@ -1,0 +1,221 @@
+"""The rotor of the FMU: a shaft that takes macro steps under affine bearing laws."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor_fmu import initial_state
+from rotor_fmu.affine_step import AffineStep
+from rotor_fmu.assembly import ShaftModel, assemble
+from rotor_fmu.condensation import Equilibrium, condense_static
+from rotor_fmu.map_cache import MapCache
+from rotor_fmu.modal_shaft import to_modal
+from rotor_fmu.reduction import Method, ReducedShaft, reduce
+from rotor_fmu.rotor_state import RotorState
+from rotor_fmu.train import Train
+from rotor_fmu.unbalance import Unbalance
+
+Array = NDArray[np.float64]
+
+
+class Rotor:
+    """A shaft in its bearings, from a start state on.
+
+    Parameters
+    ----------
+    train : Train
+        The train.
+    reduction : {"irs", "guyan", "craig-bampton", "none"}
+        How the shaft is reduced.
+    gravity : float
+        Against y [m/s2].
+    speed : float, optional
+        Speed at the start [rad/s]; default that of the train.
+    unbalance, unbalance_phase : array_like, (n_w,), optional
+        Nominal unbalance of the wheels [kg m] and its angle at t = 0 [rad]; default that of the train.
+    blade_unbalance, blade_phase : array_like, (n_w,), optional
+        Unbalance added by the blade fracture and its angle at t = 0; default none.
+    fracture_time : float
+        Instant of the fracture [s].
+
+    Notes
+    -----
+    The speed is constant within a step.  When it changes from step to step the angle
+    of rotation goes on without a jump and the force of the unbalance is U speed^2; the
+    tangential force of an angular acceleration is left out.
+    """
+
+    def __init__(
+        self,
+        train: Train,
+        *,
+        reduction: Method = "irs",
+        gravity: float = 9.80665,
+        speed: float | None = None,
+        unbalance: ArrayLike | None = None,
+        unbalance_phase: ArrayLike | None = None,
+        blade_unbalance: ArrayLike | None = None,
+        blade_phase: ArrayLike | None = None,
+        fracture_time: float = math.inf,
+    ) -> None:
+        wheels = train.wheels
+
+        def per_wheel(name: str, values: ArrayLike | None, default: ArrayLike) -> Array:
+            array = np.array(default if values is None else values, dtype=np.float64)
+            if array.shape != (len(wheels),):
+                raise ValueError(f"rotor: {name} has shape {array.shape}, allowed is ({len(wheels)},)")
+            return array
+
+        nothing = np.zeros(len(wheels))
+        excitation = Unbalance(
+            amount=per_wheel("unbalance", unbalance, train.nominal_unbalance),
+            phase=per_wheel("unbalance_phase", unbalance_phase, [w.unbalance_phase for w in wheels]),
+            blade_amount=per_wheel("blade_unbalance", blade_unbalance, nothing),
+            blade_phase=per_wheel("blade_phase", blade_phase, nothing),
+            fracture_time=fracture_time,
+        )
+        model = assemble(train)
+        self._set_up(
+            model, reduce(model, reduction), excitation, gravity, train.speed if speed is None else speed
+        )
+
+    @classmethod
+    def of_matrices(
+        cls, model: ShaftModel, reduced: ReducedShaft, unbalance: Unbalance, *, gravity: float, speed: float
+    ) -> Rotor:
+        """A rotor of given matrices instead of a train; see the class."""
+        rotor = cls.__new__(cls)
+        rotor._set_up(model, reduced, unbalance, gravity, speed)
+        return rotor
+
+    def _set_up(
+        self, model: ShaftModel, reduced: ReducedShaft, unbalance: Unbalance, gravity: float, speed: float
+    ) -> None:
+        self.model, self.reduced, self.unbalance = model, reduced, unbalance
+        self._speed = speed
+        self.shaft = to_modal(reduced)
+        self._maps = MapCache(model, self.shaft, unbalance)
+        self._stepper = AffineStep(self.shaft)
+        self._condensed = condense_static(model, gravity)
+        # At rest without wrenches until a start is given.
+        nothing = np.zeros(len(self.shaft.bearing))
+        rest = Equilibrium(np.zeros(model.size), nothing, nothing)
+        self.set_state(RotorState(np.zeros(2 * self.shaft.size), 0.0, rest))
+
+    def start_from_positions(
+        self, static: ArrayLike, cos: ArrayLike, sin: ArrayLike, *, time: float = 0.0
+    ) -> None:
+        """Start with the journals moving as q(t) = static + cos cos(speed t) + sin sin(speed t).
+
+        Parameters
+        ----------
+        static, cos, sin : array_like, (n_b, 4)
+            [m], [rad]; static q at rest and the 1X orbit about it.
+        time : float
+            Instant of the start [s].
+        """
+        positions = (_array(static), _array(cos), _array(sin))
+        harmonic = self._maps.harmonic(self._speed)
+        angle = self._angle_at(time)
+        self.set_state(initial_state.at_positions(self._condensed, harmonic, self._speed, positions, angle))
+
+    def start_from_law(
+        self, F0: ArrayLike, K: ArrayLike, C: ArrayLike, *, orbit: bool, time: float = 0.0
+    ) -> None:
+        """Start in equilibrium with the affine laws w = F0 - K q - C v.
+
+        Parameters
+        ----------
+        F0, K, C : array_like, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
+            The laws of the bearings.
+        orbit : bool
+            With the linear response to the nominal unbalance.
+        time : float
+            Instant of the start [s].
+
+        Raises
+        ------
+        ValueError
+            If K leaves a rigid-body motion of the shaft free.
+        """
+        law = (_array(F0), _array(K), _array(C))
+        harmonic = self._maps.harmonic(self._speed)
+        angle = self._angle_at(time)
+        self.set_state(initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit))
+
+    def kinematics(self) -> Array:
+        """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""
+        return self._journals.copy()
+
+    def static_wrench(self) -> Array:
+        """Wrenches that hold the shaft in the static equilibrium of the start, (n_b, 4) in N, N m."""
+        return self._state.static.wrench.reshape(-1, 4).copy()
+
+    def step(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float) -> None:
+        """Take a macro step.
+
+        Parameters
+        ----------
+        t : float
+            Instant at the start [s]; decides whether the blade breaks within the step.
+        H : float
+            Length of the step [s], positive.
+        F0, K, C : ndarray, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
+            The law of each bearing, valid through the step.
+        speed : float
+            [rad/s].
+
+        Raises
+        ------
+        StepFailure
+            If the step has no finite result; the state before it stands.
+        ValueError
+            If H is not positive and finite, or a value of the law or the speed is not finite.
+        """
+        if not (math.isfinite(H) and H > 0.0 and math.isfinite(speed)):
+            raise ValueError(f"rotor: step H = {H} s at {speed} rad/s; allowed are H > 0 and finite numbers")
+        state = self._state
+        angle, fracture = state.angle, self.unbalance.fracture_time
+        cos, sin = math.cos(angle), math.sin(angle)
+        broken = 1.0 if fracture <= t else 0.0
+        kick = None
+        if t < fracture < t + H:
+            at_fracture = angle + speed * (fracture - t)
+            rotation = np.array([math.cos(at_fracture), math.sin(at_fracture)])
+            kick = self._maps.kick(speed, t + H - fracture) @ rotation
+        end = np.empty_like(state.modal)
+        self._stepper.set_law(K, C)
+        self._stepper.advance(
+            self._maps.step(speed, H),
+            state.modal,
+            self._journals,
+            F0,
+            (cos, sin, broken * cos, broken * sin),
+            kick,
+            state.static,
+            end,
+        )
+        self.set_state(RotorState(end, math.fmod(angle + speed * H, 2.0 * math.pi), state.static))
+
+    def get_state(self) -> RotorState:
+        """The state now; it is never changed in place and may be kept without copying."""
+        return self._state
+
+    def set_state(self, state: RotorState) -> None:
+        """Go on from a state of this rotor or of another one of the same train and reduction."""
+        sizes = (len(state.modal), len(state.static.shape), len(state.static.wrench))
+        allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
+        if sizes != allowed:
+            raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
+        self._state = state
+        self._journals = self._stepper.journals(state.modal, state.static)
+
+    def _angle_at(self, time: float) -> float:
+        return math.fmod(self._speed * time, 2.0 * math.pi)
+
+
+def _array(values: ArrayLike) -> Array:
+    return np.asarray(values, dtype=np.float64)

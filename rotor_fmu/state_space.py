@@ -1,0 +1,141 @@
+"""The exact maps of the shaft over one macro step.
+
+With x = (p, p') the shaft at constant speed is x' = A x + B w + b e^{i theta}.
+Over a step of length H the wrenches w on the journals run linearly from w0 to w1
+(first-order hold) and the angle theta grows by speed * H, so that
+
+    x1 = transition x0 + wrench_start w0 + wrench_end w1 + harmonic (cos theta0, sin theta0)
+
+holds exactly.  All four come from one matrix exponential of the system augmented
+by the inputs (Van Loan 1978, IEEE Trans. Automatic Control 23, 395-404).  The
+harmonic input is augmented rather than solved for as X e^{i theta}: the result is
+the same, but also exists at a critical speed without damping and at rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from rotor_fmu.modal_shaft import ModalShaft
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class StepMaps:
+    """Maps over a step at one speed; m coordinates, n_b bearings, h harmonic inputs.
+
+    Attributes
+    ----------
+    free : ndarray, (2 m, 2 m + 4 n_b + 2 h)
+        End state from (x0, w0, cos and sin of each harmonic input at the start) with w1 = 0.
+    wrench_end : ndarray, (2 m, 4 n_b)
+        End state from the wrenches w1 at the end.
+    compliance : ndarray, (n_b, 8, 4 n_b)
+        S: journal displacements and velocities at the end from w1.
+    """
+
+    free: Array
+    wrench_end: Array
+    compliance: Array
+
+
+def state_matrix(shaft: ModalShaft, speed: float) -> Array:
+    """A of x' = A x + ..., x = (p, p'), (2 m, 2 m)."""
+    m = shaft.size
+    A = np.zeros((2 * m, 2 * m))
+    A[:m, m:] = np.eye(m)
+    A[m:, :m] = np.diag(-(shaft.omega**2))
+    A[m:, m:] = -(shaft.D + speed * shaft.G)
+    return A
+
+
+def journal_output(shaft: ModalShaft) -> Array:
+    """Journals (q, v) of each bearing from x = (p, p'), rows of eight a bearing, (8 n_b, 2 m)."""
+    n_b, m = shaft.bearings, shaft.size
+    output = np.zeros((n_b, 8, 2 * m))
+    rows = shaft.bearing.reshape(n_b, 4, m)
+    output[:, :4, :m] = rows
+    output[:, 4:, m:] = rows
+    return output.reshape(8 * n_b, 2 * m)
+
+
+def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> StepMaps:
+    """Maps over a step.
+
+    Parameters
+    ----------
+    shaft : ModalShaft
+        The shaft.
+    speed : float
+        Constant over the step [rad/s].
+    step : float
+        H [s].
+    harmonic : ndarray, (m, 2 h)
+        Modal forces, one pair (factor of cos theta, factor of sin theta) an input.
+
+    Returns
+    -------
+    StepMaps
+        The maps.
+    """
+    m, loads = shaft.size, len(shaft.bearing)
+    inputs = np.hstack([shaft.bearing.T, np.zeros((m, loads)), harmonic])
+    drift = np.zeros((inputs.shape[1],) * 2)
+    drift[:loads, loads : 2 * loads] = np.eye(loads) / step
+    drift[2 * loads :, 2 * loads :] = _rotation_rate(harmonic.shape[1], speed)
+    state = _augmented_exponential(shaft, speed, step, inputs, drift)
+    end = np.ascontiguousarray(state[:, 2 * m + loads : 2 * m + 2 * loads])
+    free = np.hstack([state[:, : 2 * m + loads], state[:, 2 * m + 2 * loads :]])
+    free[:, 2 * m : 2 * m + loads] -= end
+    compliance = journal_output(shaft) @ end
+    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads))
+
+
+def harmonic_map(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> Array:
+    """State after `step` from rest under a harmonic force alone.
+
+    Parameters
+    ----------
+    shaft, speed, harmonic
+        As for `step_maps`.
+    step : float
+        Duration [s], 0 allowed.
+
+    Returns
+    -------
+    ndarray, (2 m, 2 h)
+        Factors of (cos theta, sin theta) at the start, for each input.
+    """
+    drift = _rotation_rate(harmonic.shape[1], speed)
+    return _augmented_exponential(shaft, speed, step, harmonic, drift)[:, 2 * shaft.size :]
+
+
+def _rotation_rate(columns: int, speed: float) -> Array:
+    """Rate matrix of (cos theta, sin theta), once for each harmonic input."""
+    return np.kron(np.eye(columns // 2), np.array([[0.0, -speed], [speed, 0.0]]))
+
+
+def _augmented_exponential(
+    shaft: ModalShaft, speed: float, step: float, inputs: Array, drift: Array
+) -> Array:
+    """Upper rows of exp of [[A, (0, inputs)], [0, drift]] * step, (2 m, 2 m + columns of inputs)."""
+    m, u = shaft.size, inputs.shape[1]
+    # Displacements times frequency are of the size of velocities: the norm of A falls from omega^2 to omega.
+    elastic = shaft.omega[shaft.omega > 0.0]
+    scale = np.maximum(shaft.omega, elastic.min() if elastic.size else 1.0)
+    A = np.zeros((2 * m + u, 2 * m + u))
+    A[: 2 * m, : 2 * m] = state_matrix(shaft, speed)
+    A[:m] *= scale[:, None]
+    A[:, :m] /= scale
+    A[m : 2 * m, 2 * m :] = inputs
+    A[2 * m :, 2 * m :] = drift
+    A *= step
+    state = scipy.linalg.expm(A)[: 2 * m]
+    state[:m] /= scale[:, None]
+    state[:, :m] *= scale
+    return state
