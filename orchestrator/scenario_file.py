@@ -2,11 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import tomllib
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
+from orchestrator.errors import ScenarioError
 from orchestrator.scenario import Scenario
+from orchestrator.scenario_problems import name_problems, shape_problems, time_problems
+from rotor_fmu.train import Train
+from rotor_fmu.train_file import TrainFileError, bundled_trains, load_train
+
+_SCENARIOS = Path(__file__).parent / "scenarios"
+
+
+def bundled_scenarios() -> tuple[str, ...]:
+    """Names of the scenarios that come with the package."""
+    return tuple(sorted(path.stem for path in _SCENARIOS.glob("*.toml")))
 
 
 def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None) -> Scenario:
@@ -18,7 +32,8 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
         Name of a bundled scenario (see `bundled_scenarios`) or path of a TOML file.
     overrides : mapping, optional
         Values that replace those of the file, in the shape of the file: ``{"depth": "v2",
-        "depth_at": {"LP1-rear": "v1"}, "end": 0.5}``. Tables are merged key by key.
+        "depth_at": {"LP1-rear": "v1"}, "end": 0.5}``. Tables are merged key by key, and None
+        takes a key out: ``{"event": None}``.
 
     Returns
     -------
@@ -29,15 +44,109 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
     ScenarioError
         With one line for each problem of the file: file, key, value, what is allowed.
     """
-    raise NotImplementedError
+    path = Path(source)
+    if str(source) in bundled_scenarios():
+        path = _SCENARIOS / f"{source}.toml"
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        known = ", ".join(bundled_scenarios())
+        raise ScenarioError(
+            str(source), [f"no such scenario; allowed are {known}, or the path of a TOML file"]
+        ) from None
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ScenarioError(str(source), [f"not readable as TOML: {error}"]) from None
+    return _checked(_merged(raw, overrides or {}), path.parent, str(source))
 
 
-def bundled_scenarios() -> tuple[str, ...]:
-    """Names of the scenarios that come with the package."""
-    folder = Path(__file__).parent / "scenarios"
-    return tuple(sorted(path.stem for path in folder.glob("*.toml")))
+def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with values replaced and checked as in `load_scenario`.
+
+    Raises
+    ------
+    ScenarioError
+        When the values do not fit.
+    """
+    raw = scenario.model_dump(mode="json", exclude_defaults=True)
+    return _checked(_merged(raw, overrides), scenario.folder, scenario.title or "scenario")
+
+
+def train_of(scenario: Scenario) -> Train:
+    """Read the train of a scenario.
+
+    Raises
+    ------
+    TrainFileError
+        When it cannot be read.
+    """
+    return load_train(_train_path(scenario.train, scenario.folder))
 
 
 def scenario_toml(scenario: Scenario) -> str:
-    """TOML text of a scenario with everything spelt out; reading it gives the scenario again."""
-    raise NotImplementedError
+    """TOML text of a scenario, its defaults spelt out; reading it gives the scenario again."""
+    return "\n".join(_toml_lines(scenario.model_dump(mode="json", exclude_none=True), ())) + "\n"
+
+
+def _checked(raw: dict[str, Any], folder: Path, source: str) -> Scenario:
+    problems: list[str] = []
+    scenario = train = None
+    try:
+        if "folder" in raw:
+            problems.append("folder: unknown key")
+        scenario = Scenario.model_validate({**raw, "folder": folder})
+    except ValidationError as error:
+        problems += shape_problems(error)
+    if isinstance(raw.get("train"), str):
+        try:
+            train = load_train(_train_path(raw["train"], folder))
+        except TrainFileError as error:
+            problems += (f"train = {raw['train']!r}: {problem}" for problem in error.problems)
+    if train is not None:
+        problems += name_problems(raw, train)
+    if train is not None and scenario is not None:
+        problems += time_problems(scenario, train)
+    if scenario is None or problems:
+        raise ScenarioError(source, problems)
+    return scenario
+
+
+def _train_path(train: str, folder: Path) -> str | Path:
+    return train if train in bundled_trains() else folder / train
+
+
+def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge tables key by key; None takes a key out."""
+    result = dict(base)
+    for key, value in changes.items():
+        if isinstance(value, Mapping):
+            inner = result.get(key)
+            result[key] = _merged(inner if isinstance(inner, Mapping) else {}, value)
+        elif value is None:
+            result.pop(key, None)
+        else:
+            result[key] = value
+    return result
+
+
+def _toml_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    """Write scalars first, then tables: enough of TOML for a scenario."""
+    scalars = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    if path and scalars:
+        yield f"\n[{'.'.join(_toml_text(part) for part in path)}]"
+    for key, value in scalars.items():
+        yield f"{_toml_text(key)} = {_toml_value(value)}"
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _toml_lines(value, (*path, key))
+
+
+def _toml_text(text: str) -> str:
+    plain = text.replace("_", "").replace("-", "")
+    return text if plain.isascii() and plain.isalnum() else _toml_value(text)
+
+
+def _toml_value(value: str | float) -> str:
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+        return '"' + "".join(c if c >= " " else f"\\u{ord(c):04x}" for c in escaped) + '"'
+    return repr(value)

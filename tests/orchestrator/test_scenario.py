@@ -1,0 +1,154 @@
+"""Scenarios: what is bundled, what is refused and in which words, overrides, round trip."""
+
+import tomllib
+
+import pytest
+
+from orchestrator.errors import ScenarioError
+from orchestrator.scenario_file import (
+    bundled_scenarios,
+    load_scenario,
+    scenario_toml,
+    train_of,
+    with_overrides,
+)
+
+GOOD = """
+title = "test"
+train = "small"
+end = 0.2
+step = 1e-4
+"""
+
+
+@pytest.fixture
+def scenario_file(tmp_path):
+    def write(text):
+        path = tmp_path / "mine.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+def problems(path, **overrides):
+    with pytest.raises(ScenarioError) as info:
+        load_scenario(path, overrides)
+    assert all(line.startswith(f"{path}: ") for line in str(info.value).splitlines())
+    return info.value.problems
+
+
+@pytest.mark.parametrize("name", bundled_scenarios())
+def test_bundled_scenarios_are_valid_and_survive_a_round_trip(name, scenario_file):
+    scenario = load_scenario(name)
+    again = load_scenario(scenario_file(scenario_toml(scenario)))
+    assert again.model_dump() == scenario.model_dump()
+
+
+def test_the_paper_scenario_is_the_blade_fracture_on_the_turbine_train():
+    scenario = load_scenario("paper")
+    train = train_of(scenario)
+    assert (len(train.shoulders), len(train.bearings), train.length) == (278, 11, pytest.approx(68.0))
+    assert (scenario.end, scenario.event.time, scenario.depth) == (2.0, 1.0, "v1")
+
+
+def test_defaults(scenario_file):
+    scenario = load_scenario(scenario_file(GOOD))
+    assert scenario.coupling == "linear-implicit"
+    assert scenario.reduction == "irs"
+    assert scenario.event is None
+    assert scenario.depth_of("front") == "v1"
+
+
+def test_every_problem_is_reported_at_once(scenario_file):
+    text = """
+        train = "small"
+        end = -1.0
+        stepp = 1e-4
+        depth = "v4"
+        reduction = "irz"
+        coupling = "linear implicit"
+        [depth_at]
+        frnt = "v2"
+        rear = "V3"
+        [unbalance.at]
+        wheel-7 = { unbalance = -0.1 }
+        [event]
+        wheel = "Wheel-2"
+        unbalance = "much"
+        when = 0.1
+        [film]
+        columns = 8
+    """
+    found = problems(scenario_file(text))
+    expected = [
+        "end = -1.0; allowed is a number greater than 0",
+        "stepp: unknown key; did you mean 'step'? allowed are title, train, reduction",
+        "depth = 'v4'; allowed are v1, v2, v3",
+        "reduction = 'irz'; did you mean 'irs'? allowed are irs, guyan, craig-bampton, none",
+        "coupling = 'linear implicit'; did you mean 'linear-implicit'? allowed are linear-implicit, gauss",
+        "depth_at.rear = 'V3'; did you mean 'v3'? allowed are v1, v2, v3",
+        "unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",
+        "event.unbalance = 'much'; allowed is a number",
+        "event.time: missing; it must be given",
+        "event.when: unknown key; allowed are wheel, unbalance, phase, time",
+        "film.columns = 8; allowed is a number of at least 16",
+        "depth_at.frnt: no such bearing; did you mean 'front'? allowed are front, rear",
+        "unbalance.at.wheel-7: no such wheel; did you mean 'wheel-",
+        "event.wheel = 'Wheel-2': no such wheel; did you mean 'wheel-2'? allowed are wheel-1",
+    ]
+    assert len(found) == len(expected)
+    for start in expected:
+        assert any(line.startswith(start) for line in found), (start, found)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"step": 2.1e-3}, "step = 0.0021; allowed is at most a tenth of a rev"),
+        ({"event": {"wheel": "wheel-1", "unbalance": 1.0, "time": 0.2}}, "event.time = 0.2; allowed"),
+        ({"train": "smal"}, "train = 'smal': "),
+        ({"end": float("nan")}, "end = nan; allowed is a finite number"),
+        ({"folder": "x"}, "folder: unknown key"),
+    ],
+)
+def test_contradictions_are_refused(scenario_file, change, words):
+    assert problems(scenario_file(GOOD), **change)[0].startswith(words)
+
+
+def test_a_file_that_is_no_toml_is_named(scenario_file):
+    assert "not readable as TOML" in problems(scenario_file("end = = 1"))[0]
+
+
+def test_a_missing_file_lists_the_bundled_scenarios():
+    assert "allowed are paper, small, or the path" in problems("papper")[0]
+
+
+def test_overrides_merge_key_by_key_and_take_out(scenario_file):
+    text = GOOD + '[depth_at]\nfront = "v2"\n[event]\nwheel = "wheel-1"\nunbalance = 1.0\ntime = 0.1\n'
+    path = scenario_file(text)
+    scenario = load_scenario(path, {"depth": "v3", "depth_at": {"rear": "v1"}, "event": {"time": 0.15}})
+    assert scenario.depth_at == {"front": "v2", "rear": "v1"}
+    assert (scenario.depth, scenario.event.time, scenario.event.unbalance) == ("v3", 0.15, 1.0)
+    calm = with_overrides(scenario, {"event": None, "end": 0.1})
+    assert calm.event is None
+    assert calm.depth_at == scenario.depth_at
+    assert calm.folder == scenario.folder
+    with pytest.raises(ScenarioError, match="end = 0; allowed"):
+        with_overrides(scenario, {"end": 0})
+
+
+def test_a_train_is_found_beside_the_scenario(tmp_path, scenario_file):
+    from rotor_fmu.train_file import DATA
+
+    (tmp_path / "mine").mkdir()
+    for file in (DATA / "small").glob("*.*"):
+        (tmp_path / "mine" / file.name).write_bytes(file.read_bytes())
+    scenario = load_scenario(scenario_file(GOOD.replace('"small"', '"mine"')))
+    assert train_of(scenario).name == "small"
+
+
+def test_the_toml_text_quotes_what_needs_quoting(scenario_file):
+    odd = 'a "quoted" \\ title\twith\nlines'
+    scenario = with_overrides(load_scenario(scenario_file(GOOD)), {"title": odd})
+    assert tomllib.loads(scenario_toml(scenario))["title"] == odd
