@@ -91,7 +91,7 @@ def test_every_problem_is_reported_at_once(scenario_file):
         "unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",
         "event.unbalance = 'much'; allowed is a number",
         "event.time: missing; it must be given",
-        "event.when: unknown key; allowed are wheel, unbalance, phase, time",
+        "event.when: unknown key; did you mean 'wheel'? allowed are wheel, unbalance, phase",
         "film.columns = 8; allowed is a number of at least 16",
         "depth_at.frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "unbalance.at.wheel-7: no such wheel; did you mean 'wheel-",
