@@ -245,7 +245,7 @@ class DefectStatistics:
 
 def defect_statistics(record: xr.Dataset) -> DefectStatistics | None:
     """Statistics of ``defect_max``, None when the record has none."""
-    if "defect_max" not in record or record.sizes["time"] == 0:
+    if "defect_max" not in record or record["defect_max"].size == 0:
         return None
     defect = record["defect_max"].transpose("time", "bearing").values
     if not np.isfinite(defect).any():

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.patheffects import withStroke
 
+from orchestrator import quantities
 from orchestrator.figures import style
 from orchestrator.figures.shaft_outline import draw_shaft, draw_wheels
 from orchestrator.figures.spread import spread
@@ -98,10 +99,11 @@ def _names(
     """Names and force magnitudes below the train, with leaders to the bearings."""
     order = np.argsort(z)
     force = record["force"].isel(time=index).transpose("bearing", "axis").values
+    shown = quantities.FORCE.fitting(float(np.hypot(force[:, 0], force[:, 1]).max()))
     places = spread([float(z[i]) for i in order], NAME_WIDTH * length)
     for place, i in zip(places, order, strict=True):
         axes.annotate(
-            f"{record['bearing'].values[i]}\n{style.FORCE.text(float(np.hypot(*force[i])))}",
+            f"{record['bearing'].values[i]}\n{shown.text(float(np.hypot(*force[i])))}",
             (float(z[i]), level),
             (place, level * 1.32),
             ha="center",
@@ -130,7 +132,7 @@ def _panel(
     z = np.asarray(record["z"].values, dtype=float)
     dynamic = record["deflection"].isel(time=index).transpose("node", "axis").values - static_line(record)
     line = dynamic[:, component] * 1e3
-    stress = np.asarray(record["stress"].isel(time=index).values, dtype=float) * style.STRESS.factor
+    stress = np.asarray(record["stress"].isel(time=index).values, dtype=float) * quantities.STRESS.factor
     axes.axhline(0.0, color="#666666", linewidth=0.7, linestyle=(0, (12, 3, 2, 3)), zorder=1)
     if train is not None:
         draw_wheels(axes, train, line, millimetre)
@@ -210,7 +212,7 @@ def deformed_train(records: Sequence[xr.Dataset], train: Train | None = None) ->
                 scale,
                 force_scale,
                 limit,
-                stress * style.STRESS.factor,
+                stress * quantities.STRESS.factor,
             )
         _names(grid[2 * row], record, index, _bearing_positions(record, train), length, -limit * 0.95)
     for axes in grid[:-1]:
@@ -220,7 +222,7 @@ def deformed_train(records: Sequence[xr.Dataset], train: Train | None = None) ->
     axes = grid[1]
     start = 0.5 * (np.diff(axes.get_xlim())[0])
     axes.annotate(
-        f"{style.FORCE.text(unit)}  force on the shaft",
+        f"{quantities.FORCE.fitting(unit).text(unit)}  force on the shaft",
         (start, -limit * 0.62),
         fontsize=style.FONT - 1,
         va="center",
@@ -236,6 +238,6 @@ def deformed_train(records: Sequence[xr.Dataset], train: Train | None = None) ->
         ["#333333"],
     )
     bar = figure.colorbar(shaft, ax=list(grid), location="right", fraction=0.02, pad=0.01, aspect=40)
-    bar.set_label(style.STRESS.axis, fontsize=style.FONT)
+    bar.set_label(quantities.STRESS.axis, fontsize=style.FONT)
     bar.ax.tick_params(labelsize=style.FONT - 1)
     return figure

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator import statistics
+from orchestrator import quantities, statistics
 from orchestrator.figures import panels, style
 from orchestrator.windows import phases
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_ROWS = (("force", style.FORCE), ("moment", style.MOMENT))
+_ROWS = (("force", quantities.FORCE), ("moment", quantities.MOMENT))
 
 
 def _curve(record: xr.Dataset, name: str, bearing: str) -> panels.Curve:
@@ -37,7 +37,7 @@ def _whole(
     view: panels.View,
     record: xr.Dataset,
     name: str,
-    quantity: style.Quantity,
+    quantity: quantities.Quantity,
     bearing: str,
     prefix: str,
 ) -> None:
@@ -90,7 +90,9 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
     ratios = [1.4] * len(records) + [1.0]
     grid = figure.subplots(2, columns, sharey="row", squeeze=False, width_ratios=ratios)
     whole, near = panels.whole_run(records), panels.close_up(records)
-    for row, (name, quantity) in enumerate(_ROWS):
+    for row, (name, shown) in enumerate(_ROWS):
+        largest = max(float(statistics.magnitude(record, name, bearing).max()) for record in records)
+        quantity = shown.fitting(largest)
         for column, record in enumerate(records):
             _whole(
                 grid[row, column],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator import statistics
+from orchestrator import quantities, statistics
 from orchestrator.figures import panels, style
 from orchestrator.windows import phases
 
@@ -63,9 +63,9 @@ def _title(record: xr.Dataset, bearing: str) -> str:
     for phase in found:
         figures = statistics.bearing_statistics(record, bearing, phase, contact_from=threshold)
         text = (
-            f"{phase.name}: mean {style.GAP.text(figures.least_gap_mean)}"
-            f" ± {figures.least_gap_harmonic * style.GAP.factor:.1f},"
-            f" least {style.GAP.text(figures.least_gap_min)}"
+            f"{phase.name}: mean {quantities.GAP.text(figures.least_gap_mean)}"
+            f" ± {figures.least_gap_harmonic * quantities.GAP.factor:.1f},"
+            f" least {quantities.GAP.text(figures.least_gap_min)}"
         )
         if figures.contact_first is not None:
             text += f", contact {100 * figures.contact_share:.0f} % of the time"
@@ -103,12 +103,12 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         for column, view in enumerate(views):
             axes = grid[row, column]
             for curve in _curves(record, bearing):
-                panels.draw_curve(axes, view, curve, style.GAP)
+                panels.draw_curve(axes, view, curve, quantities.GAP)
             draw_contact(axes, view, record, bearing)
             panels.draw_event(axes, view, record, named=column == 0)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == rows - 1)
-        grid[row, 0].set_ylabel(style.GAP.axis)
+        grid[row, 0].set_ylabel(quantities.GAP.axis)
         grid[row, 0].set_title(
             style.row_prefix(records, record, bearing) + _title(record, bearing),
             loc="left",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from orchestrator.figures import style
+from orchestrator import quantities
 from orchestrator.figures.shaft_maxima import shaft_maximum
 
 if TYPE_CHECKING:
@@ -15,4 +15,4 @@ if TYPE_CHECKING:
 
 def normal_stress(records: Sequence[xr.Dataset]) -> Figure:
     """Draw the largest normal stress from bending along the shaft over time."""
-    return shaft_maximum(records, "normal_stress", style.STRESS, "Largest normal stress in the shaft")
+    return shaft_maximum(records, "normal_stress", quantities.STRESS, "Largest normal stress in the shaft")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator import statistics
+from orchestrator import quantities, statistics
 from orchestrator.figures import panels, style
 from orchestrator.figures.least_gap import draw_contact
 
@@ -32,6 +32,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
     names = [str(name) for name in records[0]["bearing"].values]
     analysed = statistics.analysed_bearing(records[0])
     view = panels.whole_run(records)
+    forces = quantities.FORCE.fitting(max(float(abs(record["force"]).max()) for record in records))
     figure = style.new_figure(
         12.0,
         1.8 + 0.95 * len(names),
@@ -47,8 +48,8 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
             force = statistics.magnitude(record, "force", name)
             gap = statistics.series(record, "least_gap", name)
             for axes, samples, extreme, quantity in (
-                (grid[row, 0], force, "force_magnitude_max", style.FORCE),
-                (grid[row, 1], gap, "least_gap_min", style.GAP),
+                (grid[row, 0], force, "force_magnitude_max", forces),
+                (grid[row, 1], gap, "least_gap_min", quantities.GAP),
             ):
                 extremes = statistics.interval_extreme(record, extreme, name, samples)
                 curve = panels.Curve(time, samples, colour, label, extremes, width=0.5)
@@ -61,7 +62,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
         grid[row, 0].set_ylabel(
             name, rotation=0, ha="right", va="center", fontweight="bold" if name == analysed else "normal"
         )
-    for column, quantity in enumerate((style.FORCE, style.GAP)):
+    for column, quantity in enumerate((forces, quantities.GAP)):
         panels.room_above(list(grid[:, column]), 0.05)
         grid[0, column].set_title(quantity.axis, loc="left", fontsize=style.FONT)
     panels.legend_below(figure, list(grid.flat))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator import quantities
 from orchestrator.figures import style
 from orchestrator.windows import Phase, fracture_time
 
@@ -99,7 +100,7 @@ def close_up(records: Sequence[xr.Dataset]) -> View:
     return View(start, end, event, 1e3, "time after the fracture [ms]")
 
 
-def draw_curve(axes: Axes, view: View, curve: Curve, quantity: style.Quantity) -> None:
+def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quantity) -> None:
     """Draw the samples as a line and fill the way to the interval extremes."""
     time = view.shown_all(curve.time)
     axes.plot(
@@ -139,7 +140,7 @@ def draw_event(axes: Axes, view: View, record: xr.Dataset, *, named: bool = True
 
 
 def draw_means(
-    axes: Axes, view: View, found: Sequence[Phase], values: Sequence[float], quantity: style.Quantity
+    axes: Axes, view: View, found: Sequence[Phase], values: Sequence[float], quantity: quantities.Quantity
 ) -> None:
     """Draw the mean of each phase over the window from which it was taken."""
     for phase, value in zip(found, values, strict=True):
@@ -157,7 +158,7 @@ def draw_means(
 
 
 def mark(
-    axes: Axes, view: View, time: float, value: float, quantity: style.Quantity, *, below: bool = False
+    axes: Axes, view: View, time: float, value: float, quantity: quantities.Quantity, *, below: bool = False
 ) -> None:
     """Mark one extreme value and write it beside the mark."""
     x = view.shown(time)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator import quantities
 from orchestrator.figures import panels, style
 from orchestrator.statistics import time_mean
 from orchestrator.windows import phases
@@ -16,7 +17,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def shaft_maximum(records: Sequence[xr.Dataset], name: str, quantity: style.Quantity, title: str) -> Figure:
+def shaft_maximum(
+    records: Sequence[xr.Dataset], name: str, quantity: quantities.Quantity, title: str
+) -> Figure:
     """Draw ``<name>_max`` over time, one row a run, the close-ups of all runs to the right.
 
     Parameters

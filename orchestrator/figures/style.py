@@ -7,7 +7,6 @@ and in grey print.  Figures show MN, kN m, um, mm and N/mm² of what the record 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
@@ -29,44 +28,6 @@ MEAN = "#000000"
 CONTACT = "#AA0055"
 FONT = 9.0
 DPI = 150
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """How a quantity is drawn.
-
-    Attributes
-    ----------
-    label : str
-        Name of the axis, without the unit.
-    unit : str
-        Unit shown.
-    factor : float
-        Shown value = SI value times this.
-    digits : str
-        Format of a value in a caption.
-    """
-
-    label: str
-    unit: str
-    factor: float
-    digits: str = ".3g"
-
-    @property
-    def axis(self) -> str:
-        """Label of an axis."""
-        return f"{self.label} [{self.unit}]"
-
-    def text(self, value: float) -> str:
-        """An SI value as shown, with its unit."""
-        return f"{value * self.factor:{self.digits}} {self.unit}"
-
-
-FORCE = Quantity("bearing force", "MN", 1e-6, ".2f")
-MOMENT = Quantity("bearing moment", "MN m", 1e-6, ".2f")
-GAP = Quantity("least gap", "µm", 1e6, ".1f")
-AMPLITUDE = Quantity("vibration amplitude", "mm", 1e3, ".2f")
-STRESS = Quantity("normal stress", "N/mm²", 1e-6, ".1f")
 
 
 def depth_at(record: xr.Dataset, bearing: str | None = None) -> str:

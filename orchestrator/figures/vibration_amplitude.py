@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from orchestrator.figures import style
+from orchestrator import quantities
 from orchestrator.figures.shaft_maxima import shaft_maximum
 
 if TYPE_CHECKING:
@@ -16,5 +16,5 @@ if TYPE_CHECKING:
 def vibration_amplitude(records: Sequence[xr.Dataset]) -> Figure:
     """Draw the largest vibration amplitude along the shaft, from the static line, over time."""
     return shaft_maximum(
-        records, "vibration_amplitude", style.AMPLITUDE, "Largest vibration amplitude in the shaft"
+        records, "vibration_amplitude", quantities.AMPLITUDE, "Largest vibration amplitude in the shaft"
     )

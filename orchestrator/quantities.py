@@ -1,0 +1,59 @@
+"""How quantities are shown to people: name, unit and digits; everything else is SI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """How a quantity is shown.
+
+    Attributes
+    ----------
+    label : str
+        Its name.
+    unit : str
+        Unit shown.
+    factor : float
+        Shown value = SI value times this.
+    digits : str
+        Format of a value.
+    """
+
+    label: str
+    unit: str
+    factor: float
+    digits: str
+
+    @property
+    def axis(self) -> str:
+        """Name and unit, as on an axis."""
+        return f"{self.label} [{self.unit}]"
+
+    def number(self, value: float) -> str:
+        """An SI value as shown, without unit."""
+        return f"{value * self.factor:{self.digits}}"
+
+    def text(self, value: float) -> str:
+        """An SI value as shown, with its unit."""
+        return f"{self.number(value)} {self.unit}"
+
+    def fitting(self, largest: float) -> Quantity:
+        """With a smaller unit where the largest value shown would be all zeros behind the point.
+
+        ``MN`` becomes ``kN`` and ``kN`` becomes ``N`` (also in moments), so that machines of
+        a few kilograms can be read, too.
+        """
+        found = self
+        for large, small in (("MN", "kN"), ("kN", "N")):
+            if found.unit.startswith(large) and 0 < abs(largest) * found.factor < 0.1:
+                found = replace(found, unit=small + found.unit.removeprefix(large), factor=found.factor * 1e3)
+        return found
+
+
+FORCE = Quantity("bearing force", "MN", 1e-6, ".2f")
+MOMENT = Quantity("bearing moment", "MN m", 1e-6, ".2f")
+GAP = Quantity("least gap", "µm", 1e6, ".1f")
+AMPLITUDE = Quantity("vibration amplitude", "mm", 1e3, ".3f")
+STRESS = Quantity("normal stress", "N/mm²", 1e-6, ".1f")
