@@ -1,0 +1,174 @@
+"""Finds a unit's packages when the FMU is loaded: the host's, if they are the same, or its own.
+
+This file travels in each FMU's resources, next to the entry script that
+pythonfmu runs, under a name of its own; it imports nothing of bladeloss.
+
+- A package the process has loaded already must have the sources the FMU was built
+  from, or the FMU is refused: one process can hold one version only.
+- A package installed in the host is taken if its sources are the same.
+- Otherwise the FMU's copy is put in the user's cache folder, once per version:
+  compiled kernels stay with it, whereas each tool extracts an FMU to a new folder.
+  Where nothing can be written there, the copy in the resources serves.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import importlib.util
+import math
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+_kept: list[dict[str, Any]] = []
+_CHECKED = "__bladeloss_digest__"  # set on a package once its sources are known
+
+
+def keep(scope: dict[str, Any]) -> None:
+    """Hold a reference to the globals of an entry script, one at each call.
+
+    pythonfmu runs the script for each instance and drops one reference to its
+    globals too many; without this they are freed while in use.
+    """
+    _kept.append(scope)
+
+
+def digest_of(files: Iterable[tuple[str, bytes]]) -> str:
+    """Return the digest of named contents, 32 hexadecimal digits."""
+    digest = hashlib.sha256()
+    for name, content in sorted(files):
+        digest.update(f"{name}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest()[:32]
+
+
+def unit_class(entry: str, facade: str, name: str, packages: dict[str, str]) -> type[Fmi2Slave]:
+    """Return the class `name` of the module `facade`, or one that refuses each step with the reason.
+
+    Parameters
+    ----------
+    entry : str
+        Path of the entry script, in the FMU's resources.
+    facade, name : str
+        Module and class of the facade.
+    packages : dict
+        Digest of each package the facade needs.
+    """
+    try:
+        for package, digest in packages.items():
+            _provide(package, digest, Path(entry).parent / "packages")
+        return getattr(importlib.import_module(facade), name)
+    except Exception as error:  # any: nothing may cross the C boundary
+        return _refusing(str(error) if isinstance(error, ImportError) else f"{type(error).__name__}: {error}")
+
+
+def _provide(package: str, digest: str, own: Path) -> None:
+    """Make `package` importable with the sources of `digest`."""
+    names = sorted(p.relative_to(own / package).as_posix() for p in _sources(own / package))
+    loaded = sys.modules.get(package)
+    if loaded is not None:
+        if not hasattr(loaded, _CHECKED):
+            setattr(loaded, _CHECKED, {})
+        checked = getattr(loaded, _CHECKED)  # per list of files: units may carry different parts
+        key = tuple(names)
+        if key not in checked:
+            checked[key] = _digest(Path(loaded.__path__[0]), names)
+        if checked[key] != digest:
+            raise ImportError(
+                f"the package {package} loaded in this process ({loaded.__path__[0]}) differs from the one "
+                "this FMU was built from; rebuild the FMU, or run it in a process of its own"
+            )
+        return
+    host = importlib.util.find_spec(package)
+    if (
+        host is None
+        or not host.submodule_search_locations
+        or (_digest(Path(host.submodule_search_locations[0]), names) != digest)
+    ):
+        sys.path.insert(0, str(_cached(package, digest, own, names)))
+        importlib.invalidate_caches()
+    module = importlib.import_module(package)
+    setattr(module, _CHECKED, {tuple(names): digest})
+
+
+def _sources(folder: Path) -> list[Path]:
+    return [p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts]
+
+
+def _digest(folder: Path, names: list[str]) -> str:
+    """Return the digest of these files in `folder`, empty if one is missing."""
+    try:
+        return digest_of((name, (folder / name).read_bytes()) for name in names)
+    except OSError:
+        return ""
+
+
+def cache_folder() -> Path:
+    """Return the user's cache folder of bladeloss."""
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local"
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Caches"
+    else:
+        base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "bladeloss"
+
+
+def _cached(package: str, digest: str, own: Path, names: list[str]) -> Path:
+    """Return a lasting folder that holds `package`, or `own` if there is none to be had."""
+    try:
+        target = cache_folder() / f"{package}-{digest}"
+        if not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(dir=target.parent) as temporary:
+                whole = Path(temporary) / "whole"
+                shutil.copytree(own / package, whole / package)
+                with suppress(OSError):  # another process may have been first
+                    whole.rename(target)
+        if _digest(target / package, names) == digest:
+            return target
+    except (OSError, RuntimeError):  # no home, no space, no permission
+        pass
+    return own
+
+
+def _refusing(reason: str) -> type[Fmi2Slave]:
+    """Return a slave that can be instantiated and asked, but never steps."""
+
+    class Refusal(Fmi2Slave):
+        def exit_initialization_mode(self) -> None:
+            self._say(Fmi2Status.error)
+
+        def do_step(self, current_time: float, step_size: float) -> bool:
+            self._say(Fmi2Status.discard)
+            return False
+
+        def _say(self, status: Fmi2Status) -> None:
+            self.log(f"{self.instance_name}: FMU refused: {reason}".replace("%", "%%"), status)
+
+        def get_real(self, vrs: list[int]) -> list[float]:
+            return [math.nan] * len(vrs)
+
+        def get_integer(self, vrs: list[int]) -> list[int]:
+            return [0] * len(vrs)
+
+        def get_boolean(self, vrs: list[int]) -> list[bool]:
+            return [False] * len(vrs)
+
+        def get_string(self, vrs: list[int]) -> list[str]:
+            return [""] * len(vrs)
+
+        def _ignore(self, vrs: list[int], values: list[Any]) -> None:
+            return
+
+        set_real = set_integer = set_boolean = set_string = _ignore
+
+    return Refusal

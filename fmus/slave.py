@@ -1,0 +1,298 @@
+"""Base of the facades: a unit of the port as an FMI 2.0 co-simulation slave.
+
+A facade maps values to physics; everything FMI asks for beyond that is here:
+value references, modes, the complete FMU state, refusal of bad input.
+
+Modes
+-----
+Until the end of Initialization Mode outputs follow the inputs and parameters:
+they are computed on get after a set.  From then on they change in ``do_step`` only.
+
+Failure
+-------
+No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it.  A bad
+parameter or a failed start is kept: the outputs are NaN, and every ``do_step``
+returns ``fmi2Discard`` with the reason in the log.  A failed step is ``fmi2Discard``,
+too; it leaves the unit as it was and may be repeated with other inputs or a
+smaller step.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from fmus.layout import Layout
+from fmus.state import UnitState, unpack
+from fmus.store import Store
+from fmus.variable import Kind
+
+INSTANTIATED, INITIALIZATION, STEP, TERMINATED = range(4)  # modes, FMI 2.0, section 4.2.4
+
+
+class UnitError(Exception):
+    """A parameter, an input or a state with which the unit cannot go on."""
+
+
+class UnitSlave(Fmi2Slave):
+    """A unit of the port; facades fill in the hooks `prepare`, `start`, `advance`.
+
+    Parameters
+    ----------
+    layout : Layout
+        The variables of the unit.
+    **kwargs
+        What pythonfmu passes: instance_name, resources, visible, logger.
+
+    Attributes
+    ----------
+    values : ndarray of float64, shape (variables,)
+        All values but strings, by value reference.  Facades hold views on it.
+    inputs : ndarray of float64
+        The view on the inputs.
+    strings : dict
+        Values of the String variables, by value reference.
+    start_time : float
+        Time at the start of the simulation [s].
+    """
+
+    digest: ClassVar[bytes] = bytes(16)  # of the FMU; the entry script sets it
+
+    def __init__(self, layout: Layout, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.layout = layout
+        self._store = Store(layout)
+        self.values = self._store.values
+        self.inputs = self.values[layout.inputs]
+        self.strings = self._store.strings
+        self.start_time = 0.0
+        self._mode = INSTANTIATED
+        self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
+        self._unsolved = True  # something was set since `start` last ran
+        self._stale = bool(layout.lazy)  # lazy variables do not belong to the present state
+        self._failure = ""  # of the start
+        self._misuse = ""  # a call that FMI forbids
+
+    # -- hooks ---------------------------------------------------------------
+
+    @abstractmethod
+    def prepare(self) -> None:
+        """Build the model from the parameters and write the calculated parameters."""
+
+    @abstractmethod
+    def start(self) -> None:
+        """Write the outputs at the start time from inputs and parameters."""
+
+    @abstractmethod
+    def advance(self, time: float, step: float) -> None:
+        """Step from `time` by `step` and write the outputs; on error leave all as it was."""
+
+    def observe(self) -> None:
+        """Write the lazy variables of the present state."""
+
+    def model_state(self) -> bytes:
+        """Return what the model holds beyond the values."""
+        return b""
+
+    def restore_model(self, state: bytes) -> None:
+        """Take back what `model_state` returned; `prepare` has run."""
+
+    # -- life cycle ----------------------------------------------------------
+
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Take the start time."""
+        self.start_time = float(start_time)
+        self._unsolved = True
+
+    def enter_initialization_mode(self) -> None:
+        """Begin the initialization."""
+        self._mode = INITIALIZATION
+
+    def exit_initialization_mode(self) -> None:
+        """Freeze the start: from here on outputs change in `do_step` only."""
+        self._solve()
+        self._mode = STEP
+        if self._failure:
+            self._report(f"start failed: {self._failure}", Fmi2Status.error)
+
+    def terminate(self) -> None:
+        """End the simulation."""
+        self._mode = TERMINATED
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance the unit; False (fmi2Discard) with the reason in the log if it cannot."""
+        problem = self._misuse or self._failure
+        if not problem and self._mode != STEP:
+            problem = "a step is due between the end of initialization and termination only"
+        if not problem:
+            problem = self._attempt(self._checked_step, current_time, step_size)
+            self._stale = bool(self.layout.lazy)
+        if problem:
+            self._report(f"step from t = {current_time} s by {step_size} s refused: {problem}")
+        return not problem
+
+    def _checked_step(self, time: float, step: float) -> None:
+        if not (0.0 < step < math.inf and math.isfinite(time)):
+            raise UnitError("the step must be positive and finite")
+        self._check_inputs()
+        self.advance(time, step)
+
+    def _check_inputs(self) -> None:
+        # one pass: a single NaN or infinity spoils the sum of squares
+        if not math.isfinite(self.inputs.dot(self.inputs)):
+            bad = (self.layout.variables[i].name for i, x in enumerate(self.inputs) if not math.isfinite(x))
+            raise UnitError(f"input {', '.join(bad)} is not a finite number")
+
+    def _solve(self) -> None:
+        """Prepare and start where something was set since; the reason of a failure is kept."""
+        if not self._unsolved:
+            return
+        self._failure = self._attempt(self._initialize)
+        self._unsolved = False
+        self._stale = bool(self.layout.lazy)
+        if self._failure:
+            self.values[self.layout.outputs] = math.nan
+            if self._prepared_for is None:
+                self.values[list(self.layout.computed)] = math.nan
+
+    def _initialize(self) -> None:
+        self._check_inputs()
+        self._prepare_if_changed()
+        self.start()
+
+    def _prepare_if_changed(self) -> None:
+        if self._store.parameters() != self._prepared_for:
+            self._prepared_for = None
+            self.prepare()
+            self._prepared_for = self._store.parameters()
+
+    # -- values --------------------------------------------------------------
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """Return values, computed first where that is due."""
+        self._update(vrs)
+        try:
+            return self._store.read(vrs)
+        except IndexError:
+            self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
+            return [math.nan] * len(vrs)
+
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """Return Integer values."""
+        return [int(value) if math.isfinite(value) else 0 for value in self.get_real(vrs)]
+
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """Return Boolean values."""
+        return [value != 0.0 for value in self.get_real(vrs)]
+
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """Return String values."""
+        return [self.strings.get(i, "") for i in vrs]
+
+    def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
+        """Set inputs, and parameters before the end of initialization."""
+        if self._accepts(vrs, "Real"):
+            self._store.write(vrs, values)
+
+    def set_integer(self, vrs: list[int], values: Sequence[int]) -> None:
+        """Set Integer parameters."""
+        if self._accepts(vrs, "Integer"):
+            self._store.write(vrs, values)
+
+    def set_boolean(self, vrs: list[int], values: Sequence[bool]) -> None:
+        """Set Boolean parameters."""
+        if self._accepts(vrs, "Boolean"):
+            self._store.write(vrs, values)
+
+    def set_string(self, vrs: list[int], values: Sequence[str]) -> None:
+        """Set String parameters."""
+        if self._accepts(vrs, "String"):
+            self.strings.update(zip(vrs, values, strict=True))
+
+    def _accepts(self, vrs: list[int], kind: Kind) -> bool:
+        """Tell whether FMI allows to set these now; if not, no step will follow."""
+        if self._mode == STEP:
+            allowed = kind == "Real" and max(vrs, default=0) < self.layout.inputs.stop
+        else:
+            allowed = self.layout.settable[kind].issuperset(vrs)
+            self._unsolved = True
+        if not allowed:
+            names = [v.name for i, v in enumerate(self.layout.variables) if i in set(vrs)]
+            when = "after initialization" if self._mode == STEP else "at all, or not with this type"
+            self._misuse = self._misuse or f"{', '.join(names[:3]) or vrs} cannot be set {when}"
+        return allowed
+
+    def _update(self, vrs: list[int]) -> None:
+        if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
+            self._solve()
+        if self._stale and not self.layout.lazy.isdisjoint(vrs):
+            problem = self._failure or self._attempt(self.observe)
+            if problem:
+                self.values[list(self.layout.lazy)] = math.nan
+                self._report(f"fields not computed: {problem}", Fmi2Status.warning)
+            self._stale = False
+
+    # -- state ---------------------------------------------------------------
+
+    def _get_fmu_state(self) -> bytes:
+        """Return the whole unit: values, texts, model, and where it stands."""
+        prepared = self._prepared_for == self._store.parameters()
+        return UnitState(
+            self._mode,
+            prepared,
+            self._unsolved,
+            self._stale,
+            self.start_time,
+            self._store.pack(),
+            [self._failure, self._misuse, *self.strings.values()],
+            self.model_state() if prepared else b"",
+        ).pack(self.digest)
+
+    def _set_fmu_state(self, state: bytes) -> None:
+        problem = self._attempt(self._restore, state)
+        if problem:
+            self._misuse = problem
+            self._report(problem, Fmi2Status.error)
+
+    def _restore(self, packed: bytes) -> None:
+        state = unpack(packed, self.digest, 2 + len(self.strings))
+        self._store.unpack(state.values)
+        self._failure, self._misuse, *strings = state.texts
+        self.strings.update(zip(self.strings, strings, strict=True))
+        if state.prepared:
+            self._prepare_if_changed()
+            self.restore_model(state.model)
+        self._mode, self._unsolved, self._stale = state.mode, state.unsolved, state.stale
+        self.start_time = state.start_time
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: bytes) -> bytes:
+        return state
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> bytes:
+        return state
+
+    # -- failure -------------------------------------------------------------
+
+    @staticmethod
+    def _attempt(action: Callable[..., None], *arguments: Any) -> str:
+        """Run `action`; return what went wrong, empty if nothing did."""
+        try:
+            action(*arguments)
+        except (UnitError, ValueError) as error:
+            return str(error) or type(error).__name__
+        except Exception as error:  # nothing may cross the C boundary
+            return f"{type(error).__name__}: {error}"
+        return ""
+
+    def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
+        # the text passes through printf on its way out
+        self.log(f"{self.instance_name}: {message}".replace("%", "%%"), status)

@@ -1,0 +1,75 @@
+"""Which files of its packages a unit needs: what its facade imports, directly or not."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+
+def package_folder(package: str) -> Path:
+    """Return the folder of an importable package.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        If there is no such package.
+    """
+    spec = importlib.util.find_spec(package)
+    if spec is None or not spec.submodule_search_locations:
+        raise ModuleNotFoundError(f"package {package!r} cannot be found")
+    return Path(spec.submodule_search_locations[0])
+
+
+def source_files(modules: Iterable[str], packages: Sequence[str]) -> dict[str, dict[str, bytes]]:
+    """Return the files that modules need, by package and by name within the package.
+
+    Parameters
+    ----------
+    modules : iterable of str
+        Where to begin, such as ``bearing_fmu.facade``.
+    packages : sequence of str
+        Packages to look into; other imports are the host's affair.
+
+    Returns
+    -------
+    dict
+        The modules reached by imports, and the tables (``*.csv``) beside them.
+    """
+    folders = {package: package_folder(package) for package in packages}
+    found: dict[str, Path] = {}
+    waiting = list(modules)
+    while waiting:
+        module = waiting.pop()
+        path = _file_of(module, folders)
+        if module in found or path is None:
+            continue
+        found[module] = path
+        waiting.extend(_imports(path))
+        waiting.append(module.rpartition(".")[0])
+    files: dict[str, dict[str, bytes]] = {package: {} for package in packages}
+    for module, path in found.items():
+        package = module.partition(".")[0]
+        for file in (path, *path.parent.glob("*.csv")):
+            files[package][file.relative_to(folders[package]).as_posix()] = file.read_bytes()
+    return files
+
+
+def _file_of(module: str, folders: dict[str, Path]) -> Path | None:
+    package, _, rest = module.partition(".")
+    if package not in folders:
+        return None
+    stem = folders[package].joinpath(*rest.split(".")) if rest else folders[package]
+    candidates = stem.with_suffix(".py") if rest else stem / "__init__.py", stem / "__init__.py"
+    return next((path for path in candidates if path.is_file()), None)
+
+
+def _imports(path: Path) -> Iterator[str]:
+    """Yield the modules that a file may import, names imported from a package among them."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)

@@ -1,0 +1,84 @@
+"""The FMU state as bytes: one block that holds a unit to the last bit."""
+
+from __future__ import annotations
+
+import json
+import struct
+from dataclasses import dataclass
+
+_HEADER = struct.Struct("<16sBBBBIIId")
+
+
+@dataclass(frozen=True)
+class UnitState:
+    """What a unit's state holds.
+
+    Attributes
+    ----------
+    mode : int
+        Where the unit stands in the FMI state machine.
+    prepared, unsolved, stale : bool
+        A model belongs to the parameters; something was set since the start was
+        solved; the lazy variables do not belong to the present state.
+    start_time : float
+        Time at the start [s].
+    values : bytes
+        All numbers, float64 in the order of the value references.
+    texts : list of str
+        Failure, misuse, then the String variables.
+    model : bytes
+        State of the model.
+    """
+
+    mode: int
+    prepared: bool
+    unsolved: bool
+    stale: bool
+    start_time: float
+    values: bytes
+    texts: list[str]
+    model: bytes
+
+    def pack(self, digest: bytes) -> bytes:
+        """Return the state as bytes, marked as that of the FMU `digest` (16 bytes)."""
+        texts = json.dumps(self.texts).encode() if any(self.texts) else b""
+        sizes = len(self.values), len(texts), len(self.model)
+        flags = self.prepared, self.unsolved, self.stale
+        header = _HEADER.pack(digest, self.mode, *flags, *sizes, self.start_time)
+        return b"".join((header, self.values, texts, self.model))
+
+
+def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
+    """Read what `UnitState.pack` wrote.
+
+    Parameters
+    ----------
+    state : bytes
+        The packed state.
+    digest : bytes
+        Digest of the FMU that reads.
+    texts : int
+        Number of texts of the unit.
+
+    Raises
+    ------
+    ValueError
+        If it comes from another FMU or is damaged.
+    """
+    start = _HEADER.size
+    if len(state) < start or state[:16] != digest:
+        raise ValueError("the FMU state does not come from this FMU")
+    _, mode, prepared, unsolved, stale, n_values, n_texts, n_model, time = _HEADER.unpack_from(state)
+    if len(state) != start + n_values + n_texts + n_model:
+        raise ValueError("the FMU state is damaged")
+    read = json.loads(state[start + n_values : start + n_values + n_texts]) if n_texts else [""] * texts
+    return UnitState(
+        mode,
+        bool(prepared),
+        bool(unsolved),
+        bool(stale),
+        time,
+        state[start : start + n_values],
+        read,
+        state[start + n_values + n_texts :],
+    )

@@ -1,0 +1,85 @@
+"""The builder: valid, reproducible, whole files, and the digest that tells stale ones."""
+
+import subprocess
+import sys
+import zipfile
+
+import pytest
+from fmpy.validation import validate_fmu
+
+from fmus import build
+from fmus.archive import guid_in, write_archive
+from fmus.sources import source_files
+from tests.fmus.conftest import spring_recipe
+
+
+def test_fmpy_finds_no_problem(spring_fmu):
+    assert validate_fmu(str(spring_fmu)) == []
+
+
+def fmutool_report(fmu) -> str:
+    """What ``fmutool -check`` says."""
+    pytest.importorskip("fmu_manipulation_toolbox")
+    call = "from fmu_manipulation_toolbox.cli.fmutool import fmutool; fmutool()"
+    command = [sys.executable, "-c", call, "-input", str(fmu), "-check"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return done.stdout + done.stderr
+
+
+def test_fmutool_finds_no_problem(spring_fmu):
+    report = fmutool_report(spring_fmu)
+    assert "compliant" in report and "No semantic error" in report
+
+
+def test_two_builds_are_the_same_to_the_byte(spring_fmu, tmp_path):
+    again = build.write(spring_recipe(), tmp_path)
+    assert again.read_bytes() == spring_fmu.read_bytes()
+
+
+def test_a_date_appears_if_it_is_prescribed(tmp_path, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
+    with zipfile.ZipFile(build.write(spring_recipe(), tmp_path)) as archive:
+        assert b'generationDateAndTime="1970-01-01T00:00:00Z"' in archive.read("modelDescription.xml")
+
+
+def test_stale_is_what_is_missing_damaged_or_made_from_other_data(spring_fmu, tmp_path):
+    recipe = spring_recipe()
+    assert not build.is_stale(spring_fmu, recipe)
+    assert build.is_stale(tmp_path / "missing.fmu", recipe)
+    assert build.is_stale(spring_fmu, spring_recipe(arguments={"gain": 3.0}))
+    assert build.is_stale(spring_fmu, spring_recipe(resources={"data": b"1"}))
+    damaged = tmp_path / "damaged.fmu"
+    damaged.write_bytes(spring_fmu.read_bytes()[:1000])
+    assert build.is_stale(damaged, recipe) and guid_in(damaged) is None
+
+
+def test_a_build_that_fails_leaves_the_old_file_and_nothing_else(spring_fmu, tmp_path):
+    path = tmp_path / "unit.fmu"
+    path.write_bytes(b"old")
+    with pytest.raises(TypeError):
+        write_archive(path, {"a": b"1", "b": None})
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_archive_holds_what_the_facade_imports_and_no_more(spring_fmu):
+    with zipfile.ZipFile(spring_fmu) as archive:
+        names = archive.namelist()
+    ours = {n.removeprefix("resources/packages/") for n in names if n.startswith("resources/packages/")}
+    assert {"fmus/slave.py", "fmus/port.py", "spring_unit/facade.py"} <= ours
+    assert not {"fmus/build.py", "fmus/recipe.py", "fmus/loader.py", "fmus/README.md"} & ours
+    assert not [n for n in names if "__pycache__" in n or "tests" in n]
+    assert "documentation/index.html" in names and "documentation/licenses/pythonfmu.txt" in names
+
+
+def test_sources_follow_imports():
+    files = source_files(["spring_unit.facade"], ["spring_unit", "fmus"])
+    assert set(files["spring_unit"]) == {"__init__.py", "facade.py"}
+    assert set(files["fmus"]) == {
+        "__init__.py",
+        "layout.py",
+        "slave.py",
+        "state.py",
+        "store.py",
+        "variable.py",
+    }

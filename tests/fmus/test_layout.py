@@ -1,0 +1,50 @@
+"""The order a port must have, and the refusal of another."""
+
+import pytest
+from spring_unit.facade import LAYOUT, VARIABLES
+
+from fmus import port
+from fmus.layout import Layout
+from fmus.variable import Variable
+
+
+def test_blocks_of_the_bearing():
+    layout = Layout(port.BEARING)
+    assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 69))
+    assert layout.parameters == slice(69, len(port.BEARING))
+    assert layout.block("journal.x", "journal.tilt_rate_y") == slice(0, 8)
+
+
+def test_blocks_of_a_rotor():
+    variables = port.rotor(("front", "rear"), ("wheel",), 5)
+    layout = Layout(variables)
+    assert layout.inputs == slice(0, 1 + 2 * 36)
+    assert layout.outputs == slice(73, 73 + 16)
+    assert {variables[i].name.split(".")[0] for i in layout.lazy} == {"amplitude", "stress"} | {
+        f"node[{k}]" for k in range(1, 6)
+    }
+
+
+def test_start_values_of_a_train_are_taken():
+    variables = port.rotor(("front",), (), 2, {"bearing[1].F0.Fy": 5e5})
+    assert {v.name: v.start for v in variables}["bearing[1].F0.Fy"] == 5e5
+
+
+@pytest.mark.parametrize("name", ["bearing[2].F0.Fy", "bearing[1].load"])
+def test_a_start_value_for_what_takes_none_is_refused(name):
+    with pytest.raises(ValueError, match="start value"):
+        port.rotor(("front",), (), 2, {name: 1.0})
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [VARIABLES[::-1], VARIABLES + VARIABLES[:1], (Variable("n", "input", kind="Integer", start=1),)],
+)
+def test_another_order_is_refused(variables):
+    with pytest.raises(ValueError, match="port"):
+        Layout(variables)
+
+
+def test_strings_and_numbers_start_as_declared():
+    assert LAYOUT.strings == {LAYOUT["label"]: "plain"}
+    assert LAYOUT.starts[LAYOUT["stiffness"]] == 1e6
