@@ -1,7 +1,11 @@
-"""Reduction of the shaft by a Ritz basis: Guyan, iterated IRS, Craig-Bampton, or none.
+"""Reduction of the shaft by a Ritz basis: IRS, Guyan, Craig-Bampton, or none.
 
 A rotor of circular sections is reduced in one plane and the basis used in both.
 The gyroscopic matrix is left out of the basis (it is projected by it).
+
+`irs-plain` is the paper's iterated IRS.  It converges to free-free modal truncation:
+free-free frequencies are near exact, but the static flexibility at the bearings suffers.
+`irs`, the default, complements it by the static modes of its masters, at equal size.
 """
 
 from __future__ import annotations
@@ -14,14 +18,17 @@ import scipy.linalg as sl
 from numpy.typing import NDArray
 
 from rotor_fmu.assembly import ShaftModel, plane_x, plane_y
-from rotor_fmu.ritz import Basis, craig_bampton, guyan, improved_reduced_system
+from rotor_fmu.ritz import Basis, complemented, craig_bampton, guyan, improved_reduced_system
 
 Array = NDArray[np.float64]
-Method = Literal["irs", "guyan", "craig-bampton", "none"]
+Method = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 METHODS: tuple[str, ...] = get_args(Method)
 
-DEFAULT_SIZE = 120
+DEFAULT_SIZE = 128
 """Reduced degrees of freedom, both planes."""
+
+IRS_MODES = 20
+"""Elastic modes of one plane by whose frequencies IRS is judged, and which complement the static modes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +79,8 @@ def reduce(
     *,
     masters: NDArray[np.intp] | None = None,
     size: int = DEFAULT_SIZE,
-    tolerance: float = 1e-8,
-    max_iterations: int = 200,
+    tolerance: float = 1e-7,
+    max_iterations: int = 100,
 ) -> ReducedShaft:
     """Reduce the shaft.
 
@@ -81,13 +88,14 @@ def reduce(
     ----------
     model : ShaftModel
         The unreduced shaft.
-    method : {"irs", "guyan", "craig-bampton", "none"}
+    method : {"irs", "irs-plain", "guyan", "craig-bampton", "none"}
         The reduction.
     masters : ndarray of int, optional
         Degrees of freedom of one plane, 2 k for the deflection and 2 k + 1 for the slope of node k, that
         are kept; for Craig-Bampton the interface.  Default: `default_masters`, `default_interface`.
     size : int
-        Reduced degrees of freedom in both planes together, for the default masters and for Craig-Bampton.
+        Reduced degrees of freedom in both planes together, where `masters` does not decide; a little more
+        if bearings and ends alone ask for it.
     tolerance, max_iterations : float, int
         IRS: see `improved_reduced_system`.
 
@@ -103,24 +111,27 @@ def reduce(
     ReductionError
         If IRS does not converge within `max_iterations`.
     """
-    mass, stiffness = model.plane_mass, model.plane_stiffness
-    half = min(size // 2, len(mass))
-    if method == "none":
-        basis = Basis(np.eye(len(mass)))
-    elif method == "craig-bampton":
-        interface = default_interface(model) if masters is None else masters
-        basis = craig_bampton(mass, stiffness, interface, modes=max(half - len(interface), 0))
-    elif method in ("guyan", "irs"):
-        kept = default_masters(model, half) if masters is None else masters
-        if method == "guyan":
-            basis = guyan(mass, stiffness, kept)
-        else:
-            basis = improved_reduced_system(
-                mass, stiffness, kept, tolerance=tolerance, max_iterations=max_iterations
-            )
-    else:
+    if method not in METHODS:
         raise ValueError(f"reduction {method!r} is unknown; allowed are {', '.join(METHODS)}")
-    return project(model, basis, method)
+    mass, stiffness, load = model.plane_mass, model.plane_stiffness, model.plane_gravity
+    half = min(size // 2, len(mass))
+    if method == "none" or (half == len(mass) and masters is None):
+        return project(model, Basis(np.eye(len(mass))), method)
+    if method == "craig-bampton":
+        interface = default_interface(model) if masters is None else masters
+        modes = max(half - 1 - len(interface), 0)
+        return project(model, craig_bampton(mass, stiffness, interface, modes=modes, load=load), method)
+    kept = default_masters(model, half) if masters is None else masters
+    if method == "guyan":
+        return project(model, guyan(mass, stiffness, kept), method)
+    modes = min(IRS_MODES, half // 3)
+    converged = improved_reduced_system(
+        mass, stiffness, kept, modes=modes, tolerance=tolerance, max_iterations=max_iterations
+    )
+    if method == "irs-plain":
+        return project(model, converged, method)
+    static = default_masters(model, half - modes - 1) if masters is None else masters
+    return project(model, complemented(mass, stiffness, converged, static, load, modes=modes), method)
 
 
 def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
@@ -164,29 +175,33 @@ def default_interface(model: ShaftModel) -> NDArray[np.intp]:
 
 
 def default_masters(model: ShaftModel, count: int) -> NDArray[np.intp]:
-    """Deflection and slope at the bearings, deflection at wheels and ends, then where the gaps are largest.
+    """Deflection and slope at the bearings, deflections at the ends, then where the gaps are largest.
+
+    The largest gaps are filled at wheels first, then at any node.
 
     Parameters
     ----------
     model : ShaftModel
         The unreduced shaft.
     count : int
-        Degrees of freedom wanted in one plane; more are returned if bearings, wheels and ends are more.
+        Degrees of freedom wanted in one plane; more are returned if bearings and ends are more.
 
     Returns
     -------
     ndarray of int
         Ascending degrees of freedom of one plane.
     """
-    chosen = {int(d) for d in default_interface(model)}
-    chosen |= {int(d) // 2 for d in model.wheel_dofs[:, 0]} | {0, 2 * model.nodes - 2}
-    while len(chosen) < count:
-        occupied = np.array(sorted({d // 2 for d in chosen}))
-        distance = np.abs(model.z[:, None] - model.z[occupied]).min(axis=1)
-        if distance.max() == 0.0:
-            chosen |= {2 * k + 1 for k in range(model.nodes)}
-            break
-        chosen.add(2 * int(distance.argmax()))
+    chosen = {int(d) for d in default_interface(model)} | {0, 2 * model.nodes - 2}
+    wheels = np.unique(model.wheel_dofs[:, 0] // 4)
+    for candidates in (wheels, np.arange(model.nodes)):
+        while len(chosen) < count:
+            occupied = np.array(sorted({d // 2 for d in chosen}))
+            distance = np.abs(model.z[candidates, None] - model.z[occupied]).min(axis=1, initial=np.inf)
+            if distance.max(initial=0.0) == 0.0:
+                break
+            chosen.add(2 * int(candidates[distance.argmax()]))
+    slopes = (2 * k + 1 for k in range(model.nodes) if 2 * k + 1 not in chosen)
+    chosen |= {slope for slope, _ in zip(slopes, range(count - len(chosen)), strict=False)}
     return np.array(sorted(chosen), dtype=np.intp)
 
 

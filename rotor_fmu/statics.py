@@ -17,9 +17,9 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
     """Static bearing loads of a train aligned to its catenary.
 
     Each rotor between couplings is in balance under its weight, its bearings and the shear in its
-    couplings, with no moment in the couplings: the couplings' faces are parallel before they are bolted.  Where
-    that leaves a choice, the shears are the least in the sense of least squares.  A `load` given for a
-    bearing is kept; if balance then asks for moments in couplings, they too are the least.
+    couplings, with no moment in the couplings: their faces are parallel before they are bolted.
+    Where that leaves a choice, the shears are the least in the sense of least squares.  A `load` given
+    for a bearing is kept; if balance then asks for moments in couplings, they too are the least.
 
     Parameters
     ----------
@@ -93,7 +93,9 @@ def _least_by_rank(blocks: list[Array], target: Array) -> list[Array]:
     for rank, block in enumerate(blocks):
         behind = np.hstack([np.zeros((len(target), 1)), *blocks[rank + 1 :]])
         shadow = sl.null_space(behind.T, rcond=1e-12).T
-        x = np.linalg.lstsq(shadow @ block, shadow @ target, rcond=1e-12)[0] if len(shadow) else np.zeros(block.shape[1])
+        x = np.zeros(block.shape[1])
+        if len(shadow):
+            x = np.linalg.lstsq(shadow @ block, shadow @ target, rcond=1e-12)[0]
         solution.append(x)
         target = target - block @ x
     return solution

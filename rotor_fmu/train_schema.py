@@ -30,8 +30,10 @@ class ShoulderRow(_Entry):
     @model_validator(mode="after")
     def _is_hollow_at_most(self) -> ShoulderRow:
         if self.inner_diameter >= self.outer_diameter:
-            raise ValueError(f"inner_diameter = {self.inner_diameter!r}; allowed is less than outer_diameter, "
-                             f"{self.outer_diameter!r}")  # fmt: skip
+            raise ValueError(
+                f"inner_diameter = {self.inner_diameter!r}; allowed is less than outer_diameter, "
+                f"{self.outer_diameter!r}"
+            )
         return self
 
 

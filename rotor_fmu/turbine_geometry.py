@@ -87,7 +87,9 @@ class _Lathe:
         """Add shoulders of one diameter; lengths in millimetres, as on a drawing."""
         self.shoulders.extend(Shoulder(mm / 1000.0, round(diameter, 6), bore, STEEL) for mm in lengths)
 
-    def wheel(self, name: str, mass: float, diameter: float, width: float, balance: float, phase: float) -> None:
+    def wheel(
+        self, name: str, mass: float, diameter: float, width: float, balance: float, phase: float
+    ) -> None:
         """Add a rigid body with a radius of gyration of 3/8 of its mean diameter."""
         polar = mass * (0.375 * diameter) ** 2
         transverse = polar / 2.0 + mass * width**2 / 12.0
@@ -139,7 +141,7 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
     return Train(
         name="turbine",
         speed=2.0 * math.pi * 25.0,
-        rayleigh_alpha=0.2,
+        rayleigh_alpha=1.5,
         rayleigh_beta=2e-5,
         balance_grade=2.5e-3,
         shoulders=tuple(lathe.shoulders),
