@@ -29,6 +29,9 @@ Scalar = TypeVar("Scalar", np.float64, np.complex128)
 _REFERENCE_FREQUENCY = 10.0
 """Of the shaft's mass on the static reference springs [rad/s]: between weak and oil-film springs."""
 
+_LEAST_CONDITION = 1e-11
+"""Reciprocal condition below which a shaft counts as not held; rounding leaves a free one about 1e-12."""
+
 
 @dataclass(frozen=True, eq=False)
 class Equilibrium(Generic[Scalar]):
@@ -189,7 +192,7 @@ def _solve(matrix: NDArray[Scalar], rhs: NDArray[Scalar], what: str) -> NDArray[
     factor, pivots, info = scipy.linalg.lapack.get_lapack_funcs(("getrf",), (scaled,))[0](scaled)
     norm = np.abs(scaled).sum(axis=0).max()
     reciprocal, _ = scipy.linalg.lapack.get_lapack_funcs(("gecon",), (scaled,))[0](factor, norm)
-    if info != 0 or not reciprocal > np.finfo(float).eps:
+    if info != 0 or not reciprocal > _LEAST_CONDITION:
         raise ValueError(
             f"{what}: the shaft is not held (reciprocal condition {reciprocal:.1e}); "
             "allowed are laws whose stiffness leaves no rigid-body motion free"

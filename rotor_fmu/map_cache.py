@@ -21,12 +21,16 @@ Item = TypeVar("Item")
 CAPACITY = 8
 """Maps kept of each kind: a step size, its halves while a step is repeated, and a second speed."""
 
+_ROUNDING = 4.0 * np.finfo(float).eps
+"""Of a difference of instants, relative to the later one."""
+
 
 class MapCache:
     """Everything that depends on speed and step size only, computed at first use.
 
-    The step size is used to nine significant digits: communication instants that are
-    sums of steps differ in their last digits and would ask for ever new maps.
+    A master that takes its step as the difference of two instants varies it by their
+    rounding and would ask for ever new maps: within that rounding a decimal of nine digits
+    is taken, or else a step size already in use.
 
     Parameters
     ----------
@@ -42,10 +46,22 @@ class MapCache:
         self._kicks: OrderedDict[tuple[float, float], Array] = OrderedDict()
         self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
 
-    def step(self, speed: float, step: float) -> StepMaps:
-        """Maps over a step, for the nominal unbalance and the lost blade's."""
-        rounded = float(f"{step:.8e}")
-        return _recall(self._steps, (speed, rounded), lambda: self._new_step(speed, rounded))
+    def step(self, speed: float, step: float, end: float = 0.0) -> StepMaps:
+        """Maps over a step, for the nominal unbalance and the lost blade's.
+
+        Parameters
+        ----------
+        speed, step : float
+            [rad/s], [s].
+        end : float
+            Instant at the end of the step, for its rounding [s].
+        """
+        if (speed, step) not in self._steps:
+            noise = _ROUNDING * (abs(end) + step)
+            known = (other for at, other in self._steps if at == speed)
+            candidates = (float(f"{step:.8e}"), *known)
+            step = next((other for other in candidates if abs(other - step) <= noise), step)
+        return _recall(self._steps, (speed, step), lambda: self._new_step(speed, step))
 
     def kick(self, speed: float, duration: float) -> Array:
         """State after `duration` from rest under the lost blade's unbalance alone, (2 m, 2)."""

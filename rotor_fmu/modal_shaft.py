@@ -85,7 +85,7 @@ def to_modal(reduced: ReducedShaft) -> ModalShaft:
         If the mass matrix is not positive definite or the stiffness has a negative eigenvalue.
     """
     M, K = reduced.M, reduced.K
-    groups = _planes(reduced.T)
+    groups = _planes(reduced.T, M, K)
     modes = np.zeros_like(M)
     squares = np.zeros(len(M))
     at = 0
@@ -110,12 +110,13 @@ def to_modal(reduced: ReducedShaft) -> ModalShaft:
     )
 
 
-def _planes(T: Array) -> list[NDArray[np.intp]]:
-    """Columns of each bending plane if every column lies in one, else all columns in one group."""
+def _planes(T: Array, M: Array, K: Array) -> list[NDArray[np.intp]]:
+    """Coordinates of each bending plane if the planes are uncoupled, else all coordinates in one group."""
     size = np.abs(T)
     in_x = np.maximum(size[0::4].max(axis=0), size[3::4].max(axis=0)) > 0.0
     in_y = np.maximum(size[1::4].max(axis=0), size[2::4].max(axis=0)) > 0.0
-    if np.any(in_x & in_y):
+    across = np.ix_(in_x, in_y)
+    if np.any(in_x & in_y) or np.any(M[across]) or np.any(K[across]):
         return [np.arange(T.shape[1])]
     return [group for group in (np.flatnonzero(in_x), np.flatnonzero(~in_x)) if len(group)]
 

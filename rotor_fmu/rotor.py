@@ -189,7 +189,7 @@ class Rotor:
         end = np.empty_like(state.modal)
         self._stepper.set_law(K, C)
         self._stepper.advance(
-            self._maps.step(speed, H),
+            self._maps.step(speed, H, t + H),
             state.modal,
             self._journals,
             F0,
