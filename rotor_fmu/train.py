@@ -250,7 +250,10 @@ class Train:
         """
         data = json.loads(text)
         materials = {m["name"]: Material(**m) for m in data.pop("materials")}
-        data["shoulders"] = tuple(Shoulder(*row[:3], materials[row[3]]) for row in data["shoulders"])
+        data["shoulders"] = tuple(
+            Shoulder(length, outer, inner, materials[material])
+            for length, outer, inner, material in data["shoulders"]
+        )
         data["wheels"] = tuple(Wheel(**w) for w in data["wheels"])
         data["bearings"] = tuple(BearingSeat(**b) for b in data["bearings"])
         data["couplings"] = tuple(Coupling(**c) for c in data["couplings"])

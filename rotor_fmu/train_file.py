@@ -8,14 +8,17 @@ A file with mistakes is refused with all of them, one line each.
 from __future__ import annotations
 
 import csv
+import difflib
 import tomllib
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from rotor_fmu.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
-from rotor_fmu.train_schema import BearingEntry, ShoulderRow, TrainToml, explain
+from rotor_fmu.train_schema import BearingEntry, Placed, ShoulderRow, TrainToml, explain
 
 POSITION_TOLERANCE = 1e-6
 """How far z may be off the boundary of two shoulders [m]."""
@@ -62,20 +65,21 @@ def load_train(name_or_path: str | Path) -> Train:
         path = Path(name_or_path)
         path = path / "train.toml" if path.is_dir() else path
     if not path.is_file():
+        known = bundled_trains()
+        close = difflib.get_close_matches(str(name_or_path), known, n=1)
         raise TrainFileError(
             [
-                f"{name_or_path}: no such train; allowed are the bundled {', '.join(bundled_trains())}, "
+                f"{name_or_path}: no such train; {f'did you mean {close[0]!r}? ' if close else ''}"
+                f"allowed are the bundled {', '.join(known)}, "
                 "or the path of a folder with train.toml and shaft.csv"
             ]
         )
     problems: list[str] = []
     data = _read_toml(path, problems)
-    table = path.parent / str(data.shaft if data else "shaft.csv")
+    table = path.parent / (data.shaft if data else "shaft.csv")
     rows = _read_shaft(table, problems)
-    if data is None or problems:
-        raise TrainFileError(problems)
-    train = _join(path, table, data, rows, problems)
-    if train is None or problems:
+    train = _join(path, table, data, rows, problems) if data and not problems else None
+    if train is None:
         raise TrainFileError(problems)
     return train
 
@@ -100,7 +104,7 @@ def _read_shaft(path: Path, problems: list[str]) -> list[tuple[int, ShoulderRow]
     except (UnicodeDecodeError, OSError) as error:
         problems.append(f"{path}: not readable: {error}")
         return []
-    content = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#")]
+    content = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
     header = tuple(cell.strip() for cell in content[0][1].split(",")) if content else ()
     if header != _COLUMNS:
         problems.append(f"{path}: header {','.join(header)!r}; allowed is {','.join(_COLUMNS)!r}")
@@ -126,95 +130,99 @@ def _join(
 ) -> Train | None:
     """Place wheels, bearings and couplings on the shaft and check what spans both files."""
     materials = {name: Material(name, **entry.model_dump()) for name, entry in data.materials.items()}
-    shoulders = []
     for number, row in rows:
         if row.material not in materials:
-            problems.append(
-                f"{table}: row {number}: material = {row.material!r}; allowed are {', '.join(materials)}"
-            )
-        else:
-            shoulders.append(
-                Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials[row.material])
-            )
+            known = ", ".join(materials)
+            problems.append(f"{table}: row {number}: material = {row.material!r}; allowed are {known}")
     if problems:
         return None
-    bare = Train(data.name, data.speed, data.damping.alpha, data.damping.beta, data.balance_grade,
-                 tuple(shoulders), (), ())  # fmt: skip
-    z = bare.z
-
-    def place(kind: str, entries: list[Any]) -> list[dict[str, Any]]:
-        placed = []
-        for entry in entries:
-            node = min(range(len(z)), key=lambda k: abs(z[k] - entry.z))
-            if abs(z[node] - entry.z) > POSITION_TOLERANCE:
-                near = ", ".join(f"{z[k]:.6g}" for k in range(max(node - 1, 0), min(node + 2, len(z))))
-                problems.append(
-                    f"{path}: {kind} {entry.name!r}: z = {entry.z!r}; allowed are boundaries of shoulders, "
-                    f"the nearest {near}"
-                )
-            placed.append({**entry.model_dump(exclude={"z"}), "node": node})
-        return placed
-
-    wheels = place("wheel", data.wheel)
-    bearings = place("bearing", data.bearing)
-    couplings = place("coupling", data.coupling)
-    for kind, placed in (("bearing", bearings), ("coupling", couplings)):
-        nodes = [p["node"] for p in placed]
-        for before, after in zip(placed, placed[1:], strict=False):
-            if after["node"] <= before["node"]:
-                problems.append(
-                    f"{path}: {kind} {after['name']!r}: z = {z[after['node']]:.6g}; allowed is more than that of "
-                    f"{before['name']!r} before it, {z[before['node']]:.6g}"
-                )
-        for p in placed:
-            if nodes.count(p["node"]) == 1 and not 0 < p["node"] < len(z) - 1:
-                problems.append(f"{path}: {kind} {p['name']!r}: z = {z[p['node']]:.6g}; allowed is inside the shaft")
+    shaft = Train(
+        name=data.name,
+        speed=data.speed,
+        rayleigh_alpha=data.damping.alpha,
+        rayleigh_beta=data.damping.beta,
+        balance_grade=data.balance_grade,
+        shoulders=tuple(
+            Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials[row.material])
+            for _, row in rows
+        ),
+        wheels=(),
+        bearings=(),
+    )
+    found: list[str] = []
+    wheels, bearings, couplings = (
+        [_place(shaft, kind, entry, found) for entry in getattr(data, kind)]
+        for kind in ("wheel", "bearing", "coupling")
+    )
+    if not found:
+        found += _check_order(shaft, "bearing", bearings) + _check_order(shaft, "coupling", couplings)
+        found += _check_rotors(shaft, bearings, couplings)
     for entry, seat in zip(data.bearing, bearings, strict=True):
-        problems.extend(f"{path}: bearing {entry.name!r}: {text}" for text in _check_seat(entry, seat["node"], bare))
-    _check_sections(path, bearings, couplings, len(z), problems)
+        found += [f"bearing {entry.name!r}: {text}" for text in _check_seat(shaft, entry, seat["node"])]
+    problems.extend(f"{path}: {text}" for text in found)
     if problems:
         return None
-    return Train(
-        name=bare.name,
-        speed=bare.speed,
-        rayleigh_alpha=bare.rayleigh_alpha,
-        rayleigh_beta=bare.rayleigh_beta,
-        balance_grade=bare.balance_grade,
-        shoulders=bare.shoulders,
+    return replace(
+        shaft,
         wheels=tuple(Wheel(**w) for w in wheels),
         bearings=tuple(BearingSeat(**b) for b in bearings),
         couplings=tuple(Coupling(**c) for c in couplings),
     )
 
 
-def _check_seat(entry: BearingEntry, node: int, train: Train) -> list[str]:
-    problems = []
+def _place(shaft: Train, kind: str, entry: Placed, found: list[str]) -> dict[str, Any]:
+    """The entry with its node instead of z."""
+    z = shaft.z
+    node = min(range(len(z)), key=lambda k: abs(z[k] - entry.z))
+    if abs(z[node] - entry.z) > POSITION_TOLERANCE:
+        near = ", ".join(f"{value:.6g}" for value in z[max(node - 1, 0) : node + 2])
+        found.append(
+            f"{kind} {entry.name!r}: z = {entry.z!r}; allowed are boundaries of shoulders, the nearest {near}"
+        )
+    return {**entry.model_dump(exclude={"z"}), "node": node}
+
+
+def _check_order(shaft: Train, kind: str, placed: list[dict[str, Any]]) -> list[str]:
+    found = []
+    ends = (0, shaft.nodes - 1)
+    for p in placed:
+        if p["node"] in ends:
+            found.append(
+                f"{kind} {p['name']!r}: z = {shaft.z[p['node']]:.6g}; allowed is between the shaft's ends, "
+                f"0 and {shaft.length:.6g}"
+            )
+    for before, after in pairwise(placed):
+        if after["node"] <= before["node"]:
+            found.append(
+                f"{kind} {after['name']!r}: z = {shaft.z[after['node']]:.6g}; allowed is more than that of "
+                f"{before['name']!r} before it, {shaft.z[before['node']]:.6g}"
+            )
+    return found
+
+
+def _check_seat(shaft: Train, entry: BearingEntry, node: int) -> list[str]:
+    found = []
     low, high = (factor * entry.diameter / 2.0 for factor in _RELATIVE_CLEARANCE)
     if not low <= entry.clearance <= high:
-        problems.append(
-            f"clearance = {entry.clearance!r}; allowed for diameter {entry.diameter:g} is {low:.3g} to {high:.3g} "
-            "(radial, 1e-4 to 1e-2 of the radius)"
+        found.append(
+            f"clearance = {entry.clearance!r}; allowed is the radial clearance, {low:.3g} to {high:.3g} "
+            f"(1e-4 to 1e-2 of the radius) for diameter {entry.diameter:g}"
         )
-    around = {s.outer_diameter for s in train.shoulders[max(node - 1, 0) : node + 1]}
+    around = {s.outer_diameter for s in shaft.shoulders[max(node - 1, 0) : node + 1]}
     if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in around):
-        shafts = " and ".join(f"{d:g}" for d in sorted(around))
-        problems.append(f"diameter = {entry.diameter!r}; allowed is that of the shaft there, {shafts}")
-    return problems
+        there = " and ".join(f"{d:g}" for d in sorted(around))
+        found.append(f"diameter = {entry.diameter!r}; allowed is the shaft's own diameter there, {there}")
+    return found
 
 
-def _check_sections(
-    path: Path, bearings: list[dict[str, Any]], couplings: list[dict[str, Any]], nodes: int, problems: list[str]
-) -> None:
-    """Two bearings carry the first rotor; each further rotor needs one, its coupling being the other."""
-    cuts = [0, *(c["node"] for c in couplings), nodes - 1]
-    for r, (first, last) in enumerate(zip(cuts[:-1], cuts[1:], strict=True)):
-        count = sum(first < b["node"] < last for b in bearings)
-        if count == 0:
-            between = couplings[r - 1]["name"] if r else "the front end", (
-                couplings[r]["name"] if r < len(couplings) else "the rear end"
-            )
-            problems.append(
-                f"{path}: bearing: none between {between[0]} and {between[1]}; each rotor needs at least one"
-            )
+def _check_rotors(shaft: Train, bearings: list[dict[str, Any]], couplings: list[dict[str, Any]]) -> list[str]:
+    """Every rotor between couplings stands on a bearing, and the train on two at least."""
+    found = []
+    names = ["the front end", *(repr(c["name"]) for c in couplings), "the rear end"]
+    cuts = [0, *(c["node"] for c in couplings), shaft.nodes - 1]
+    for (front, rear), (first, last) in zip(pairwise(names), pairwise(cuts), strict=True):
+        if not any(first < b["node"] < last for b in bearings):
+            found.append(f"bearing: none between {front} and {rear}; allowed is at least one")
     if len(bearings) < 2:
-        problems.append(f"{path}: bearing: {len(bearings)} of them; at least two are needed")
+        found.append(f"bearing: {len(bearings)} in all; allowed are at least two")
+    return found

@@ -52,11 +52,16 @@ class DampingEntry(_Entry):
     beta: NotNegative = 0.0
 
 
-class WheelEntry(_Entry):
-    """[[wheel]]: see `rotor_fmu.train.Wheel`; z [m] instead of a node."""
+class Placed(_Entry):
+    """Something on the shaft: name and z [m]."""
 
     name: Name
     z: NotNegative
+
+
+class WheelEntry(Placed):
+    """[[wheel]]: see `rotor_fmu.train.Wheel`; z instead of a node."""
+
     mass: Positive
     polar_inertia: NotNegative
     transverse_inertia: NotNegative
@@ -65,11 +70,9 @@ class WheelEntry(_Entry):
     unbalance_phase: Finite = 0.0
 
 
-class BearingEntry(_Entry):
-    """[[bearing]]: see `rotor_fmu.train.BearingSeat`; z [m] instead of a node."""
+class BearingEntry(Placed):
+    """[[bearing]]: see `rotor_fmu.train.BearingSeat`; z instead of a node."""
 
-    name: Name
-    z: NotNegative
     diameter: Positive
     width: Positive
     clearance: Positive
@@ -83,13 +86,6 @@ class BearingEntry(_Entry):
     residual_tilt_y: Annotated[float, Field(ge=-0.01, le=0.01)] = 0.0
 
 
-class CouplingEntry(_Entry):
-    """[[coupling]]: name and z [m]."""
-
-    name: Name
-    z: NotNegative
-
-
 class TrainToml(_Entry):
     """train.toml; the order of wheels, bearings and couplings is that of the file."""
 
@@ -101,7 +97,7 @@ class TrainToml(_Entry):
     materials: Annotated[dict[str, MaterialEntry], Field(min_length=1)]
     wheel: list[WheelEntry] = []
     bearing: list[BearingEntry]
-    coupling: list[CouplingEntry] = []
+    coupling: list[Placed] = []
 
     @model_validator(mode="after")
     def _names_are_unique(self) -> TrainToml:

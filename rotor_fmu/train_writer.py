@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import fields
 from pathlib import Path
+from typing import TypeAlias
 
 from rotor_fmu.train import BearingSeat, Coupling, Train, Wheel
+
+Placed: TypeAlias = Coupling | BearingSeat | Wheel
 
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
 
@@ -29,7 +32,7 @@ def write_train(train: Train, folder: Path) -> None:
 def shaft_csv(train: Train) -> str:
     """The shoulders from front to rear, one a row; what sits behind a shoulder is noted as a comment."""
     notes: dict[int, list[str]] = {}
-    for part in (*train.couplings, *train.bearings, *train.wheels):
+    for part in _parts(train):
         notes.setdefault(part.node, []).append(f"{_kind(part)} {part.name}")
     lines = [
         f"# Shoulders of train {train.name}, front to rear; metres",
@@ -62,12 +65,12 @@ def train_toml(train: Train) -> str:
             f"poisson_ratio = {material.poisson_ratio!r}",
             f"density = {material.density!r}",
         ]
-    for part in (*train.couplings, *train.bearings, *train.wheels):
+    for part in _parts(train):
         lines += ["", f"[[{_kind(part)}]]", *_entries(train, part)]
     return "\n".join(lines) + "\n"
 
 
-def _entries(train: Train, part: Coupling | BearingSeat | Wheel) -> Iterable[str]:
+def _entries(train: Train, part: Placed) -> Iterable[str]:
     for field in fields(part):
         value = getattr(part, field.name)
         if field.name == "node":
@@ -78,7 +81,11 @@ def _entries(train: Train, part: Coupling | BearingSeat | Wheel) -> Iterable[str
             yield f"{field.name} = {float(value)!r}"
 
 
-def _kind(part: Coupling | BearingSeat | Wheel) -> str:
+def _parts(train: Train) -> tuple[Placed, ...]:
+    return (*train.couplings, *train.bearings, *train.wheels)
+
+
+def _kind(part: Placed) -> str:
     return {Coupling: "coupling", BearingSeat: "bearing", Wheel: "wheel"}[type(part)]
 
 

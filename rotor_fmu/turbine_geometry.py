@@ -36,8 +36,8 @@ class TurbineDesign:
     Attributes
     ----------
     lp_core_diameter, lp_wheel_mass : float
-        Mean diameter between the glands and mass of each of nine wheels of an LP rotor: they set its first
-        bending mode, its bending stress and its bearing loads.
+        Nominal diameter between the glands (seats 35 to 55 mm more, reliefs 60 mm less) and mass of each of
+        nine wheels of an LP rotor: they set its first bending mode, bending stress and bearing loads.
     hp_core_diameter, hp_wheel_mass : float
         The same for the five wheels of the HP rotor.
     generator_winding_mass : float
@@ -93,8 +93,18 @@ class _Lathe:
         """Add a rigid body with a radius of gyration of 3/8 of its mean diameter."""
         polar = mass * (0.375 * diameter) ** 2
         transverse = polar / 2.0 + mass * width**2 / 12.0
-        rounded = (float(f"{value:.4g}") for value in (polar, transverse))
-        self.wheels.append(Wheel(name, self.node, mass, *rounded, diameter, balance, phase))
+        self.wheels.append(
+            Wheel(
+                name,
+                self.node,
+                mass,
+                polar_inertia=round(polar, 1),
+                transverse_inertia=round(transverse, 1),
+                mean_diameter=round(diameter, 6),
+                balance_factor=balance,
+                unbalance_phase=phase,
+            )
+        )
 
     def bearing(self, name: str, journal: JournalDesign, design: TurbineDesign) -> None:
         """Add a bearing whose mid-plane lies here."""
@@ -208,13 +218,13 @@ def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float)
             lathe.turn(part[0], *part[1])
     for number in range(1, 10):
         flow = abs(number - 5)
-        seat = core + (0.010, 0.006, 0.002, -0.004, -0.008)[flow]
-        lathe.turn(seat - 0.012, 175)
+        seat = core + (0.055, 0.050, 0.045, 0.040, 0.035)[flow]
+        lathe.turn(core - 0.060, 175)  # relief between the seats
         lathe.turn(seat, 200)
         diameter = 2.4 + 0.3 * flow
         lathe.wheel(f"{name}-{number}", design.lp_wheel_mass, diameter, 0.5, design.lp_balance, phase)
         lathe.turn(seat, 200)
-        lathe.turn(seat - 0.012, 175)
+        lathe.turn(core - 0.060, 175)
     for part in outwards:
         if part is None:
             lathe.bearing(f"{name}-rear", journal, design)
