@@ -11,10 +11,12 @@ from rotor_fmu import initial_state
 from rotor_fmu.affine_step import AffineStep
 from rotor_fmu.assembly import ShaftModel, assemble
 from rotor_fmu.condensation import Equilibrium, condense_static
+from rotor_fmu.fields import Extremes, FieldMap, NodeFields
 from rotor_fmu.map_cache import MapCache
 from rotor_fmu.modal_shaft import to_modal
 from rotor_fmu.reduction import Method, ReducedShaft, reduce
 from rotor_fmu.rotor_state import RotorState
+from rotor_fmu.stress import BendingStress, bending_stress
 from rotor_fmu.train import Train
 from rotor_fmu.unbalance import Unbalance
 
@@ -28,8 +30,8 @@ class Rotor:
     ----------
     train : Train
         The train.
-    reduction : {"irs", "guyan", "craig-bampton", "none"}
-        How the shaft is reduced.
+    reduction : str
+        How the shaft is reduced: irs, irs-plain, guyan, craig-bampton or none; see `reduce`.
     gravity : float
         Against y [m/s2].
     speed : float, optional
@@ -78,27 +80,40 @@ class Rotor:
             fracture_time=fracture_time,
         )
         model = assemble(train)
-        self._set_up(
-            model, reduce(model, reduction), excitation, gravity, train.speed if speed is None else speed
-        )
+        start_speed = train.speed if speed is None else speed
+        self._set_up(model, reduce(model, reduction), bending_stress(train), excitation, gravity, start_speed)
 
     @classmethod
     def of_matrices(
-        cls, model: ShaftModel, reduced: ReducedShaft, unbalance: Unbalance, *, gravity: float, speed: float
+        cls,
+        model: ShaftModel,
+        reduced: ReducedShaft,
+        bending: BendingStress,
+        unbalance: Unbalance,
+        *,
+        gravity: float,
+        speed: float,
     ) -> Rotor:
         """A rotor of given matrices instead of a train; see the class."""
         rotor = cls.__new__(cls)
-        rotor._set_up(model, reduced, unbalance, gravity, speed)
+        rotor._set_up(model, reduced, bending, unbalance, gravity, speed)
         return rotor
 
     def _set_up(
-        self, model: ShaftModel, reduced: ReducedShaft, unbalance: Unbalance, gravity: float, speed: float
+        self,
+        model: ShaftModel,
+        reduced: ReducedShaft,
+        bending: BendingStress,
+        unbalance: Unbalance,
+        gravity: float,
+        speed: float,
     ) -> None:
         self.model, self.reduced, self.unbalance = model, reduced, unbalance
         self._speed = speed
         self.shaft = to_modal(reduced)
         self._maps = MapCache(model, self.shaft, unbalance)
         self._stepper = AffineStep(self.shaft)
+        self._fields = FieldMap(self.shaft, bending, model.z, gravity)
         self._condensed = condense_static(model, gravity)
         # At rest without wrenches until a start is given.
         nothing = np.zeros(len(self.shaft.bearing))
@@ -199,6 +214,14 @@ class Rotor:
             end,
         )
         self.set_state(RotorState(end, math.fmod(angle + speed * H, 2.0 * math.pi), state.static))
+
+    def fields(self) -> NodeFields:
+        """Displacement, vibration amplitude and normal stress at all nodes now."""
+        return self._fields.fields(self._state.modal[: self.shaft.size], self._state.static)
+
+    def extremes(self) -> Extremes:
+        """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
+        return self._fields.extremes(self._state.modal[: self.shaft.size], self._state.static)
 
     def get_state(self) -> RotorState:
         """The state now; it is never changed in place and may be kept without copying."""

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 from rotor_fmu.assembly import ShaftModel
 from rotor_fmu.reduction import ReducedShaft
 from rotor_fmu.rotor import Rotor
+from rotor_fmu.stress import BendingStress
 from rotor_fmu.unbalance import Unbalance
 
 
@@ -32,6 +33,13 @@ def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):
         gravity=load, method="none",
     )  # fmt: skip
     return model, reduced
+
+
+def matrix_rotor(model, reduced, excitation, *, gravity, speed):
+    """A rotor of matrices; they do not tell of bending moments, which here are none."""
+    n = model.size
+    bending = BendingStress(sp.csr_array((n, n)), np.zeros(n), np.ones((2, n // 4)))
+    return Rotor.of_matrices(model, reduced, bending, excitation, gravity=gravity, speed=speed)
 
 
 def gyroscopic(seed=1, nodes=3):
@@ -62,7 +70,7 @@ def small_rotor(*, speed=12.0, excitation=None, ground=0.0, gravity=0.0, seed=1)
         M, D, G, K + ground * np.eye(len(M)), bearings=(0, 2), wheels=(0, 1), gravity=load
     )
     excitation = excitation or unbalance([0.02, 0.01], [0.3, -1.0])
-    return Rotor.of_matrices(model, reduced, excitation, gravity=gravity, speed=speed)
+    return matrix_rotor(model, reduced, excitation, gravity=gravity, speed=speed)
 
 
 def linear_bearings(count=2, seed=5):

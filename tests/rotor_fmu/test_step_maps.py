@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from small_shafts import gyroscopic, no_law, run, unbalance, unreduced
+from small_shafts import gyroscopic, matrix_rotor, no_law, run, unbalance, unreduced
 
 from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.rotor import Rotor
 from rotor_fmu.state_space import harmonic_map, state_matrix, step_maps
 
 
 def oscillator(*, mass=2.0, stiffness=800.0, damping=3.0, speed=15.0, amount=0.1, phase=0.4):
     eye = np.eye(4)
     matrices = mass * eye, damping * eye, 0.0 * eye, stiffness * eye
-    return Rotor.of_matrices(*unreduced(*matrices), unbalance([amount], [phase]), gravity=0.0, speed=speed)
+    return matrix_rotor(*unreduced(*matrices), unbalance([amount], [phase]), gravity=0.0, speed=speed)
 
 
 @pytest.mark.parametrize("speed", [0.0, 15.0, 20.0, -7.0])

@@ -1,0 +1,121 @@
+"""Fields over the nodes of the unreduced shaft, and where they are largest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor_fmu.condensation import Equilibrium
+from rotor_fmu.modal_shaft import ModalShaft
+from rotor_fmu.stress import BendingStress
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class NodeFields:
+    """Values at the N nodes of the shaft.
+
+    Attributes
+    ----------
+    x, y : ndarray, (N,)
+        Displacements, static sag included [m].
+    amplitude : ndarray, (N,)
+        Vibration amplitude: radius of the displacement from the static line [m].
+    stress : ndarray, (N,)
+        Largest normal stress at the surface from static and dynamic bending in both planes [Pa].
+    """
+
+    x: Array
+    y: Array
+    amplitude: Array
+    stress: Array
+
+
+class Extremes(NamedTuple):
+    """Largest vibration amplitude [m] and normal stress [Pa] of all nodes, and their positions [m]."""
+
+    amplitude: float
+    amplitude_z: float
+    stress: float
+    stress_z: float
+
+
+class FieldMap:
+    """From modal displacements to fields; the rows of deflection and bending moments in one matrix a plane.
+
+    Parameters
+    ----------
+    shaft : ModalShaft
+        The reduced shaft.
+    bending : BendingStress
+        Bending moments of the unreduced shaft.
+    z : ndarray, (N,)
+        Positions of the nodes [m].
+    gravity : float
+        [m/s2].
+    """
+
+    def __init__(self, shaft: ModalShaft, bending: BendingStress, z: Array, gravity: float) -> None:
+        self._z, self._gravity, self._bending = z, gravity, bending
+        nodes = self._nodes = len(z)
+        moments = np.asarray(bending.operator @ shaft.T)
+        self._planes = []
+        for deflection, rows in (
+            (shaft.T[0::4], moments[: 2 * nodes]),
+            (shaft.T[1::4], moments[2 * nodes :]),
+        ):
+            full = np.vstack([deflection, rows])
+            used = np.flatnonzero(np.any(full != 0.0, axis=0))
+            # A bending plane sees its own modes only, which are neighbours.
+            columns = slice(int(used[0]), int(used[-1]) + 1) if len(used) else slice(0, 0)
+            self._planes.append((columns, np.ascontiguousarray(full[:, columns])))
+        self._flexibility = (1.0 / bending.modulus).ravel()
+        self._static: Equilibrium[np.float64] | None = None
+        self._static_moments = np.zeros((2, 2 * nodes))
+
+    def fields(self, displacement: Array, static: Equilibrium[np.float64]) -> NodeFields:
+        """All fields at modal displacements p, (m,), about a static equilibrium."""
+        x, y, moment_x, moment_y = self._apply(displacement, static)
+        stress = np.hypot(moment_x, moment_y) * self._flexibility
+        return NodeFields(
+            x=static.shape[0::4] + x,
+            y=static.shape[1::4] + y,
+            amplitude=np.hypot(x, y),
+            stress=stress.reshape(2, -1).max(axis=0),
+        )
+
+    def extremes(self, displacement: Array, static: Equilibrium[np.float64]) -> Extremes:
+        """Largest amplitude and stress alone, at a fraction of the cost of `fields`."""
+        x, y, moment_x, moment_y = self._apply(displacement, static)
+        square = x * x + y * y
+        k = int(square.argmax())
+        # Squares, for hypot is slow; moments are far from overflow.
+        stress = moment_x * moment_x + moment_y * moment_y
+        stress *= self._flexibility
+        stress *= self._flexibility
+        s = int(stress.argmax())
+        return Extremes(
+            math.sqrt(square[k]),
+            float(self._z[k]),
+            math.sqrt(stress[s]),
+            float(self._z[s % self._nodes]),
+        )
+
+    def _apply(
+        self, displacement: Array, static: Equilibrium[np.float64]
+    ) -> tuple[Array, Array, Array, Array]:
+        """Dynamic deflections (N,) and total bending moments (2 N,) in both planes."""
+        if static is not self._static:
+            moments = self._bending.moments(static.shape, self._gravity)
+            self._static, self._static_moments = static, moments.reshape(2, -1)
+        (columns_x, plane_x), (columns_y, plane_y) = self._planes
+        in_x, in_y = plane_x @ displacement[columns_x], plane_y @ displacement[columns_y]
+        n = self._nodes
+        in_x[n:] += self._static_moments[0]
+        in_y[n:] += self._static_moments[1]
+        return in_x[:n], in_y[:n], in_x[n:], in_y[n:]
