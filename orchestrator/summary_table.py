@@ -58,7 +58,7 @@ def _facts(summary: RunSummary) -> Table:
     facts = Table.grid(padding=(0, 2))
     facts.add_column(style="dim", no_wrap=True)
     facts.add_column()
-    rows = [
+    rows: list[tuple[str, str | Text]] = [
         ("outcome", Text(summary.outcome, style="green" if summary.finished else "bold red")),
         (
             "simulated",
@@ -167,9 +167,9 @@ class SummaryTable:
             yield _phase_table(summary, phase, wide=options.max_width >= WIDE)
         if summary.analysed is not None:
             yield Text(
-                f"Analysed bearing: {summary.analysed}. Harmonic part: half peak-to-peak. Contact counts from "
-                f"{100 * CONTACT_SHARE:g} % of the force before the event; its share of the time is taken "
-                "where the means are.",
+                f"Analysed bearing: {summary.analysed}. Harmonic part: half peak-to-peak. Contact counts "
+                f"from {100 * CONTACT_SHARE:g} % of the force before the event, its share of the time where "
+                "the means are taken.",
                 style="dim",
             )
 

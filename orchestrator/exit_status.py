@@ -1,0 +1,26 @@
+"""Exit statuses of the command: 0 only for a finished, valid run."""
+
+from __future__ import annotations
+
+from orchestrator.outcome import Outcome
+
+INPUT_ERROR = 2
+"""Something given is wrong: option, scenario, train, FMU, folder.  Nothing was simulated or written."""
+
+STATUS = {
+    Outcome.FINISHED: 0,
+    Outcome.NO_EQUILIBRIUM: 3,
+    Outcome.STEP_REFUSED: 4,
+    Outcome.UNIT_FAILED: 5,
+    Outcome.NOT_FINITE: 6,
+    Outcome.INTERRUPTED: 130,
+}
+"""Exit status of each outcome; 130 is what shells give for an interrupt."""
+
+OTHER_OUTCOME = 7
+"""For an outcome without a status of its own."""
+
+
+def of_outcome(outcome: Outcome) -> int:
+    """Exit status for the outcome of a run."""
+    return STATUS.get(outcome, OTHER_OUTCOME)

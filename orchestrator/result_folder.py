@@ -1,0 +1,93 @@
+"""The folder of a run's results: it appears whole, and only when everything in it is written."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from orchestrator.errors import OrchestratorError
+
+PARTIAL = "PARTIAL.txt"
+"""Name of the file that marks a run that did not reach its end, with the reason."""
+FIGURES = "figures"
+_OURS = ("record.nc", "record.csv", "summary.txt", "summary.json", "scenario.toml", FIGURES, PARTIAL)
+_SIGN = "scenario.toml"  # a folder with this file and nothing alien to it is an earlier result
+
+
+class ResultFolderError(OrchestratorError):
+    """A folder that cannot take results."""
+
+
+def check_folder(folder: Path) -> None:
+    """Make sure that results can go to a folder, before hours are spent on them.
+
+    Raises
+    ------
+    ResultFolderError
+        When the path is a file, or a folder with files that are not an earlier result.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / _SIGN).is_file():
+        raise ResultFolderError(
+            f"{folder}: holds files that are no earlier result; --out takes a new folder, an empty one or "
+            "that of an earlier run"
+        )
+    parent = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not os.access(parent, os.W_OK):
+        raise ResultFolderError(f"{folder}: no permission to write in {parent}")
+
+
+def partial_folder(folder: Path) -> Path:
+    """Where an unfinished run goes, so that it never replaces a finished one."""
+    return folder.with_name(folder.name + "-partial")
+
+
+@contextmanager
+def result_folder(folder: Path) -> Iterator[Path]:
+    """Write results into a temporary folder that takes its place at the end.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the results go.  Results of an earlier run in it are replaced, other files stay.
+
+    Yields
+    ------
+    Path
+        The temporary folder; it vanishes when the block raises, and `folder` stays as it was.
+    """
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    try:
+        yield temporary
+        if folder.is_dir():
+            _replace(temporary, folder)
+        else:
+            temporary.chmod(0o777 & ~_umask())
+            temporary.rename(folder)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _replace(fresh: Path, folder: Path) -> None:
+    """Put the files of `fresh` into `folder` in place of those of an earlier run."""
+    for name in _OURS:
+        target = folder / name
+        if target.is_dir():
+            shutil.rmtree(target)
+        else:
+            target.unlink(missing_ok=True)
+    for path in fresh.iterdir():
+        path.rename(folder / path.name)
+
+
+def _umask() -> int:
+    """The process's mask for new files, which mkdtemp overrides."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
