@@ -1,0 +1,86 @@
+"""The axial basis of the film: bubble functions on Gauss-Lobatto nodes clustered at the edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import Legendre
+from numpy.typing import NDArray
+
+#: Strength of the clustering z = tanh(k t) / tanh(k).  Under tilt the pressure peaks next to an
+#: edge; over 14 random states with least gaps of 1-10 % of the clearance and tilts, 1.7 gave the
+#: smallest worst error of force and moment at 8 rows (1.5: moment 1.5 %, 1.7: 0.9 %, 1.9: 1.0 %).
+CLUSTERING = 1.7
+
+
+@dataclass(frozen=True)
+class AxialBasis:
+    """Nodal basis over z in [-1, 1], which is the axial coordinate over half the width.
+
+    The basis are the Lagrange polynomials in t of the interior nodes, so that they vanish at the
+    ends; z = tanh(k t) / tanh(k).  Integrals take the Gauss-Lobatto rule of the same nodes.
+
+    Attributes
+    ----------
+    nodes : ndarray, shape (rows + 2,)
+        z of the interior nodes, then of the two ends -1 and 1.
+    weights : ndarray, shape (rows + 2,)
+        Quadrature weights of integrals over z.
+    stretch : ndarray, shape (rows + 2,)
+        dz/dt at the nodes.
+    slopes : ndarray, shape (rows + 2, rows)
+        Derivative by t of basis function j (column) at node q (row).
+    """
+
+    nodes: NDArray[np.float64]
+    weights: NDArray[np.float64]
+    stretch: NDArray[np.float64]
+    slopes: NDArray[np.float64]
+
+    @property
+    def rows(self) -> int:
+        """Number of basis functions."""
+        return self.slopes.shape[1]
+
+    def stiffness_products(self) -> NDArray[np.float64]:
+        """Outer products of the slopes at each node, shape (rows + 2, rows, rows)."""
+        return np.einsum("qj,qk->qjk", self.slopes, self.slopes)
+
+    def stiffness_weights(self) -> NDArray[np.float64]:
+        """Weights of integrals of products of two z-derivatives, for slopes by t, shape (rows + 2,)."""
+        return self.weights / self.stretch**2
+
+
+def gauss_lobatto(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Nodes and weights of the Gauss-Lobatto-Legendre rule on [-1, 1] with `count` nodes, ends included.
+
+    Source: Abramowitz and Stegun 1964, 25.4.32.
+    """
+    legendre = Legendre.basis(count - 1)
+    interior = np.sort(legendre.deriv().roots().real)
+    interior = 0.5 * (interior - interior[::-1])  # exactly symmetric
+    nodes = np.concatenate(([-1.0], interior, [1.0]))
+    return nodes, 2.0 / (count * (count - 1) * legendre(nodes) ** 2)
+
+
+def axial_basis(rows: int, clustering: float = CLUSTERING) -> AxialBasis:
+    """Axial basis with `rows` bubble functions.
+
+    Derivatives at the nodes by barycentric weights (Berrut and Trefethen 2004, Eq. 9.4).
+    """
+    t, weights = gauss_lobatto(rows + 2)
+    scale = np.array([np.prod(t[i] - np.delete(t, i)) for i in range(t.size)])
+    difference = t[:, None] - t[None, :] + np.eye(t.size)
+    slopes = scale[:, None] / scale[None, :] / difference
+    np.fill_diagonal(slopes, 0.0)
+    np.fill_diagonal(slopes, -slopes.sum(axis=1))
+    stretch = clustering / np.cosh(clustering * t) ** 2 / np.tanh(clustering)
+    nodes = np.tanh(clustering * t) / np.tanh(clustering)
+    order = np.r_[1 : rows + 1, 0, rows + 1]
+    return AxialBasis(
+        nodes=nodes[order],
+        weights=(weights * stretch)[order],
+        stretch=stretch[order],
+        slopes=np.ascontiguousarray(slopes[order][:, 1:-1]),
+    )

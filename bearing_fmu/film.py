@@ -1,0 +1,184 @@
+"""The film of one bearing: what a facade, a test or a user evaluates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.contact import CONTACT_RESULTS
+from bearing_fmu.evaluate import evaluate_v1
+from bearing_fmu.greenwood_tripp import slice_table
+from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS, scales
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.status import FilmFailure, FilmStatus
+from bearing_fmu.tilted_film import RESULTS, tilted_film
+
+__all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
+
+Floats = NDArray[np.float64]
+
+
+class Depth(StrEnum):
+    """Modelling depth of a bearing."""
+
+    V1 = "v1"
+    """Reynolds equation over the tilted gap."""
+    V2 = "v2"
+    """Reynolds equation, tilts and tilt rates ignored."""
+    V3 = "v3"
+    """Short bearing, tilts and tilt rates ignored."""
+
+
+@dataclass(frozen=True)
+class BearingResponse:
+    """Everything a bearing returns at one state, SI units.
+
+    Attributes
+    ----------
+    wrench : ndarray, shape (4,)
+        F = (Fx, Fy, Mx, My) on the journal, film and contact.
+    stiffness, damping : ndarray, shape (4, 4)
+        K = -dF/dq and C = -dF/dv.
+    h_min, h_min_centre, h_min_z : float
+        Least gap over the film and at the mid-plane, and axial position of the least gap, m.
+    p_max : float
+        Largest film pressure over the cavity, Pa.
+    contact_force : float
+        Integral of the solid contact pressure, N.
+    contact_wrench : ndarray, shape (4,)
+        Part of `wrench` from solid contact.
+    friction_power : float
+        Power lost in film shear and solid friction, W.
+    eccentricity : float
+        Relative eccentricity at the mid-plane.
+    sommerfeld : float
+        So = |F| psi^2 / (b d eta omega); 0 at standstill, where it is not defined.
+    """
+
+    wrench: Floats
+    stiffness: Floats
+    damping: Floats
+    h_min: float
+    h_min_centre: float
+    h_min_z: float
+    p_max: float
+    contact_force: float
+    contact_wrench: Floats
+    friction_power: float
+    eccentricity: float
+    sommerfeld: float
+
+
+class Film:
+    """Prepared evaluator of one bearing; made by `make_film`.
+
+    Holds its work space, so one instance serves one thread at a time.  Nothing else is kept: the
+    same input gives the same output to the last bit, whatever was evaluated before.
+
+    Attributes
+    ----------
+    depth : Depth
+        Modelling depth.
+    parameters : BearingParameters
+        The bearing.
+    """
+
+    def __init__(self, depth: Depth, parameters: BearingParameters) -> None:
+        self.depth = depth
+        self.parameters = parameters
+        self._kernel: Callable[..., int]
+        self._data: tuple[Any, ...]
+        common = (scales(parameters, aligned=depth is not Depth.V1), slice_table(parameters))
+        work = (np.zeros(12), np.zeros(RESULTS), np.zeros(CONTACT_RESULTS))
+        aspect = parameters.diameter / parameters.width
+        if depth is Depth.V1:
+            film = tilted_film(int(parameters.columns), int(parameters.rows), aspect)
+            self._kernel, self._data = evaluate_v1, (*common, film, *work)
+        else:
+            raise NotImplementedError(depth)
+
+    def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
+        """Evaluate the port.
+
+        Parameters
+        ----------
+        inputs : ndarray, shape (17,), float64
+            In the order of `fmus.port.BEARING_INPUTS`.
+        offset : ndarray, shape (4,), float64
+            Bearing centre in the fixed frame: x, y in m, tilts in rad.
+        out : ndarray, shape (52,), float64
+            Written in the order of `fmus.port.BEARING_OUTPUTS`; untouched on failure.
+
+        Returns
+        -------
+        int
+            0, or another code of `FilmStatus`.
+        """
+        return self._kernel(inputs, offset, out, *self._data)
+
+    def respond(self, q: Floats, v: Floats, speed: float) -> BearingResponse:
+        """Response at a relative state of journal and bore.
+
+        Parameters
+        ----------
+        q, v : array_like, shape (4,)
+            Relative position (m, rad) and velocity (m/s, rad/s).
+        speed : float
+            Rotor speed, rad/s, positive from x to y; either sign and zero are admissible.
+
+        Raises
+        ------
+        FilmFailure
+            The state has no response; names status, advice and state.
+        """
+        inputs = np.zeros(INPUTS)
+        inputs[:4] = q
+        inputs[4:8] = v
+        inputs[16] = speed
+        out = np.empty(OUTPUTS)
+        status = FilmStatus(self.evaluate(inputs, np.zeros(4), out))
+        if status is not FilmStatus.OK:
+            raise FilmFailure(status, np.concatenate((inputs[:8], inputs[16:])))
+        gap = out[OUT_GAP:]
+        return BearingResponse(
+            wrench=out[:OUT_F0].copy(),
+            stiffness=out[OUT_K:OUT_C].reshape(4, 4).copy(),
+            damping=out[OUT_C:OUT_GAP].reshape(4, 4).copy(),
+            h_min=float(gap[0]),
+            h_min_centre=float(gap[1]),
+            h_min_z=float(gap[2]),
+            p_max=float(gap[3]),
+            contact_force=float(gap[4]),
+            contact_wrench=gap[5:9].copy(),
+            friction_power=float(gap[9]),
+            eccentricity=float(gap[10]),
+            sommerfeld=float(gap[11]),
+        )
+
+
+def make_film(depth: Depth | str, parameters: BearingParameters) -> Film:
+    """Prepare the film of one bearing.
+
+    Parameters
+    ----------
+    depth : Depth or str
+        "v1", "v2" or "v3".
+    parameters : BearingParameters
+        The bearing.
+
+    Raises
+    ------
+    ValueError
+        Unknown depth.
+    """
+    try:
+        chosen = Depth(depth)
+    except ValueError:
+        allowed = ", ".join(repr(d.value) for d in Depth)
+        raise ValueError(f"bearing depth {depth!r}: must be one of {allowed}") from None
+    return Film(chosen, parameters)

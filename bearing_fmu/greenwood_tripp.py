@@ -1,0 +1,117 @@
+"""Greenwood-Tripp contact of rough surfaces: pressure, and force of a whole bearing slice.
+
+The asperity pressure over a gap h of surfaces with combined roughness sigma is ::
+
+    p_c = K'E' F_5/2(h / sigma),   F_n(H) = 1/sqrt(2 pi) int_H^inf (s - H)^n exp(-s^2/2) ds
+
+(Greenwood and Tripp 1970, Eq. 7-9).  The integral is evaluated, not fitted: the usual power law is off by
+11 % at H = 0 and 74 % at H = 3.  It holds for H < 0 as it stands, there F_5/2 grows as (-H)^5/2, so
+that overlapping mean lines stay stiff, smooth and finite.
+
+At one axial position the gap C - e cos(psi) depends on the eccentricity e alone, and so do force and
+normal load of the slice.  They are tabulated once for a bearing as cubic splines.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from bearing_fmu.parameters import BearingParameters
+
+Floats = NDArray[np.float64]
+
+#: Gap from which on the contact pressure is taken as zero: F_5/2(7) is 1e-13 of F_5/2(0).
+REACH = 7.0
+_STEP = 0.05
+
+
+def asperity_integral(order: float, gap: Floats | float) -> Floats:
+    """F_n(H) for n = 1/2, 1, 3/2, ... to about 1e-13 relative.
+
+    With s = H + x^2 the integrand 2 x^(2n + 1) exp(-(H + x^2)^2 / 2) is even over the real line for
+    odd 2n, where the trapezoidal rule converges exponentially; for integer n it is of high order at 0.
+
+    Parameters
+    ----------
+    order : float
+        n.
+    gap : array_like
+        H, gap over roughness; negative where the mean lines overlap.
+
+    Returns
+    -------
+    ndarray
+        Shape of `gap`.
+    """
+    h = np.asarray(gap, dtype=np.float64)
+    widest = np.sqrt(max(0.0, -float(h.min(initial=0.0))) + 9.0)
+    step = 0.01
+    x = step * np.arange(1, int(widest / step) + 2)
+    weight = 2.0 * step / np.sqrt(2.0 * np.pi) * x ** (2.0 * order + 1.0)
+    return np.exp(-0.5 * (h[..., None] + x**2) ** 2) @ weight
+
+
+def contact_pressure(gap: Floats | float, roughness: float, modulus: float) -> Floats:
+    """Greenwood-Tripp pressure, Pa, of a gap between mean lines, m."""
+    return modulus * asperity_integral(2.5, np.asarray(gap) / roughness)
+
+
+class SliceTable(NamedTuple):
+    """Contact of one bearing slice over its eccentricity, for evaluation in compiled code.
+
+    Attributes
+    ----------
+    first, step : float
+        First eccentricity of the table and its spacing, m.
+    force : ndarray, shape (intervals, 4)
+        Spline coefficients, ascending powers of the place in the interval [0, 1], of the radial force
+        per width, N/m, R int p_c cos(psi) dpsi.
+    load : ndarray, shape (intervals, 4)
+        Likewise of the integral of the contact pressure per width, N/m, R int p_c dpsi.
+    """
+
+    first: float
+    step: float
+    force: Floats
+    load: Floats
+
+
+def slice_table(parameters: BearingParameters) -> SliceTable:
+    """Tabulate the contact of one slice up to the deepest admissible overlap.
+
+    A bearing without contact gets a table that begins beyond every admissible eccentricity.
+    """
+    sigma, clearance = parameters.roughness, parameters.clearance
+    if not parameters.has_contact:
+        return SliceTable(np.inf, 1.0, np.zeros((1, 4)), np.zeros((1, 4)))
+    first = clearance - REACH * sigma
+    step = _STEP * sigma
+    e = first + step * np.arange(int(np.ceil((clearance - parameters.deepest_gap - first) / step)) + 2)
+    # Gauss-Legendre over the arc of contact, in pieces that resolve the change from tail to overlap.
+    node, weight = np.polynomial.legendre.leggauss(16)
+    pieces = 8
+    half = np.arccos(np.clip(first / e, -1.0, 1.0))[:, None]
+    fraction = ((np.arange(pieces)[:, None] + 0.5 * (node + 1.0)) / pieces).ravel()
+    psi = half * fraction
+    quadrature = 2.0 * half * np.tile(0.5 * weight / pieces, pieces)
+    reduced = (clearance - e[:, None] * np.cos(psi)) / sigma
+    table = np.arange(float(reduced.min()) - 0.02, REACH + 0.02, 0.01)
+    pressure = parameters.contact_modulus * CubicSpline(table, asperity_integral(2.5, table))(reduced)
+    arc = parameters.radius * pressure * quadrature
+    return SliceTable(
+        float(first),
+        float(step),
+        _coefficients((arc * np.cos(psi)).sum(axis=1), clamp=True),
+        _coefficients(arc.sum(axis=1), clamp=True),
+    )
+
+
+def _coefficients(values: Floats, clamp: bool) -> Floats:
+    """Cubic spline over unit steps as ascending coefficients of each interval."""
+    values = values - values[0]
+    spline = CubicSpline(np.arange(values.size), values, bc_type=((1, 0.0), "not-a-knot") if clamp else "natural")
+    return np.ascontiguousarray(spline.c[::-1].T)

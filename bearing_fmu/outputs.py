@@ -1,0 +1,171 @@
+"""From the port's inputs to a relative state, and from film and contact to the port's outputs."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bearing_fmu.contact import FORCE, FORCE_SLOPE, LOAD
+from bearing_fmu.gap import least_gap
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.status import FilmStatus
+from bearing_fmu.tilted_film import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
+
+Floats = NDArray[np.float64]
+
+INPUTS = 17
+# Where the groups of the port's outputs begin.
+OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
+
+NOT_FINITE = int(FilmStatus.NOT_FINITE)
+GAP_CLOSED = int(FilmStatus.GAP_CLOSED)
+TOO_DEEP = int(FilmStatus.TOO_DEEP)
+NO_SOLUTION = int(FilmStatus.NO_SOLUTION)
+OK = int(FilmStatus.OK)
+
+
+class Scales(NamedTuple):
+    """Constants of one bearing in the form the kernels take."""
+
+    radius: float
+    width: float
+    clearance: float
+    viscosity: float
+    friction: float
+    sigma: float  #: roughness over clearance
+    deepest: float  #: least admissible gap over clearance
+    ambient: float  #: ambient pressure over `pressure`, 1/s
+    pressure: float  #: 6 eta R^2 / C^2, Pa s
+    force: float  #: `pressure` R b/2, N s
+    closes: int  #: status where the gap is below the deepest one
+    aligned: bool  #: whether tilts are ignored
+
+
+def scales(parameters: BearingParameters, aligned: bool) -> Scales:
+    """Constants of the kernels for one bearing."""
+    radius, clearance = parameters.radius, parameters.clearance
+    pressure = 6.0 * parameters.viscosity * (radius / clearance) ** 2
+    return Scales(
+        radius=radius,
+        width=float(parameters.width),
+        clearance=float(clearance),
+        viscosity=float(parameters.viscosity),
+        friction=float(parameters.friction),
+        sigma=parameters.roughness / clearance,
+        deepest=parameters.deepest_gap / clearance,
+        ambient=parameters.ambient_pressure / pressure,
+        pressure=pressure,
+        force=pressure * radius * 0.5 * parameters.width,
+        closes=TOO_DEEP if parameters.has_contact else GAP_CLOSED,
+        aligned=aligned,
+    )
+
+
+@njit(cache=True, nogil=True)
+def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats) -> int:
+    """Relative state of journal and bore, and whether it can be evaluated.
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (17,)
+        Port order: journal (q, v), housing (q, v), speed.
+    offset : ndarray, shape (4,)
+        Bearing centre in the fixed frame.
+    state : ndarray, shape (12,)
+        Results: q in m and rad; q and v over the clearance, tilts times b/2 over the clearance.
+
+    Returns
+    -------
+    int
+        A code of `FilmStatus`.
+    """
+    probe = 0.0
+    for i in range(INPUTS):
+        probe += inputs[i] * 0.0
+    for i in range(4):
+        probe += offset[i] * 0.0
+    if probe != 0.0:
+        return NOT_FINITE
+    half = 0.5 * scales.width
+    for i in range(4):
+        lever = 1.0 if i < 2 else half
+        q = inputs[i] - inputs[8 + i] - offset[i]
+        v = inputs[4 + i] - inputs[12 + i]
+        if scales.aligned and i >= 2:
+            q, v = 0.0, 0.0
+        state[i] = q
+        state[4 + i] = q * lever / scales.clearance
+        state[8 + i] = v * lever / scales.clearance
+    if not least_gap(state[4:8])[0] > scales.deepest:
+        return scales.closes
+    return OK
+
+
+@njit(cache=True, nogil=True)
+def write_outputs(
+    scales: Scales, inputs: Floats, state: Floats, result: Floats, contact: Floats, out: Floats
+) -> int:
+    """Write the port's outputs.
+
+    Parameters
+    ----------
+    inputs, state
+        As in `relative_state`.
+    result : ndarray, shape (RESULTS,)
+        Film, dimensionless.
+    contact : ndarray, shape (CONTACT_RESULTS,)
+        Solid contact, SI.
+    out : ndarray, shape (52,)
+        Port order; untouched where a result is not finite.
+
+    Returns
+    -------
+    int
+        A code of `FilmStatus`.
+    """
+    probe = 0.0
+    for i in range(result.shape[0]):
+        probe += result[i] * 0.0
+    for i in range(contact.shape[0]):
+        probe += contact[i] * 0.0
+    if probe != 0.0:
+        return NO_SOLUTION
+    half = 0.5 * scales.width
+    slope = scales.force / scales.clearance
+    speed = inputs[16]
+    for i in range(4):
+        lever = scales.force if i < 2 else scales.force * half
+        out[OUT_WRENCH + i] = lever * result[WRENCH + i] + contact[FORCE + i]
+        constant = out[OUT_WRENCH + i]
+        for j in range(4):
+            scale = slope * (1.0 if i < 2 else half) * (1.0 if j < 2 else half)
+            k = -(scale * result[STIFFNESS + 4 * i + j] + contact[FORCE_SLOPE + 4 * i + j])
+            c = -scale * result[DAMPING + 4 * i + j]
+            out[OUT_K + 4 * i + j] = k
+            out[OUT_C + 4 * i + j] = c
+            constant += k * inputs[j] + c * inputs[4 + j]
+        out[OUT_F0 + i] = constant
+    least, z, centre = least_gap(state[4:8])
+    # Film shear on the journal: Couette over the whole circumference, and Poiseuille, whose integral
+    # over h/2 dp/dx is half the moment of the film force about the bore's axis.
+    x, y, tx, ty = state[0], state[1], state[2], state[3]
+    turning = x * result[1] - y * result[0] + half * (tx * result[3] - ty * result[2])
+    couette = scales.viscosity * scales.radius**3 * half / scales.clearance * result[SHEAR] * speed * speed
+    grip = scales.friction * abs(speed) * scales.radius * contact[LOAD]
+    out[OUT_GAP] = least * scales.clearance
+    out[OUT_GAP + 1] = centre * scales.clearance
+    out[OUT_GAP + 2] = z * half
+    out[OUT_GAP + 3] = result[PEAK] * scales.pressure
+    out[OUT_GAP + 4] = contact[LOAD]
+    for i in range(4):
+        out[OUT_GAP + 5 + i] = contact[FORCE + i]
+    out[OUT_GAP + 9] = couette + 0.5 * speed * scales.force * turning + grip
+    out[OUT_GAP + 10] = 1.0 - centre
+    load = np.hypot(out[0], out[1])
+    area = 2.0 * scales.radius * scales.width
+    rate = scales.viscosity * abs(speed) * area * (scales.radius / scales.clearance) ** 2
+    out[OUT_GAP + 11] = load / rate if rate > 0.0 else 0.0
+    return OK
