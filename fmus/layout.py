@@ -42,7 +42,7 @@ class Layout:
     strings: dict[int, str] = field(init=False, repr=False)
     settable: dict[Kind, frozenset[int]] = field(init=False, repr=False)
     computed: frozenset[int] = field(init=False, repr=False)
-    lazy: frozenset[int] = field(init=False, repr=False)
+    lazy: dict[str, frozenset[int]] = field(init=False, repr=False)
     inputs: slice = field(init=False)
     outputs: slice = field(init=False)
     parameters: slice = field(init=False)
@@ -69,7 +69,8 @@ class Layout:
             {k: frozenset(i for i, v in numbered if v.kind == k and v.causality in free) for k in kinds},
         )
         set_field(self, "computed", frozenset(i for i, c in enumerate(causality) if c not in free))
-        set_field(self, "lazy", frozenset(i for i, v in numbered if v.lazy))
+        groups = sorted({v.lazy for v in self.variables if v.lazy})
+        set_field(self, "lazy", {g: frozenset(i for i, v in numbered if v.lazy == g) for g in groups})
         set_field(self, "inputs", inputs)
         eager = (i for i, v in numbered if v.causality == "output" and not v.lazy)
         set_field(self, "outputs", _block(self.variables, eager, "outputs"))

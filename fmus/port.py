@@ -247,7 +247,7 @@ def rotor(
     for i, name in enumerate(bearings, 1):
         variables.extend(_rotor_journal(i, name))
     for name, unit, text, nominal in _SUMMARY:
-        variables.append(Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy=True))
+        variables.append(Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes"))
     variables.extend(_ROTOR_PARAMETERS)
     for i, name in enumerate(bearings, 1):
         for part, text in _START_PARTS:
@@ -272,7 +272,7 @@ def rotor(
         for k in range(1, nodes + 1):
             described = f"shaft node {k}: {text}"
             field = Variable(f"node[{k}].{key}", "output", unit, described, minimum=minimum, nominal=nominal)
-            variables.append(replace(field, lazy=True))
+            variables.append(replace(field, lazy="fields"))
     return with_starts(variables, starts or {})
 
 

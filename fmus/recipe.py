@@ -60,6 +60,8 @@ class Recipe:
         Further files in the resources, by name.
     keeps_starts : bool
         Add ``starts.json``, the start values by name, to the resources.
+    builder_modules : tuple of str
+        Modules that `variables` draws on; they stay outside, but count in the digest.
     """
 
     file_name: str
@@ -72,6 +74,7 @@ class Recipe:
     arguments: Mapping[str, Value] = field(default_factory=dict)
     resources: Mapping[str, bytes] = field(default_factory=dict)
     keeps_starts: bool = False
+    builder_modules: tuple[str, ...] = ()
 
     @cached_property
     def sources(self) -> dict[str, dict[str, bytes]]:
@@ -83,7 +86,8 @@ class Recipe:
         """Digest of all that the FMU is made from, 32 hexadecimal digits."""
         own = package_folder("fmus")
         files = {f"builder/{name}": (own / name).read_bytes() for name in _BUILDERS}
-        for package, sources in self.sources.items():
+        drawn_on = source_files(self.builder_modules, self.packages)
+        for package, sources in (*drawn_on.items(), *self.sources.items()):
             files |= {f"{package}/{name}": content for name, content in sources.items()}
         files |= {f"resources/{name}": content for name, content in self.resources.items()}
         said = (self.file_name, self.name, self.description, self.facade, self.facade_class)

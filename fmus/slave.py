@@ -21,22 +21,19 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
+from fmus.failure import UnitError, attempt
 from fmus.layout import Layout
 from fmus.state import UnitState, unpack
 from fmus.store import Store
 from fmus.variable import Kind
 
 INSTANTIATED, INITIALIZATION, STEP, TERMINATED = range(4)  # modes, FMI 2.0, section 4.2.4
-
-
-class UnitError(Exception):
-    """A parameter, an input or a state with which the unit cannot go on."""
 
 
 class UnitSlave(Fmi2Slave):
@@ -74,7 +71,7 @@ class UnitSlave(Fmi2Slave):
         self._mode = INSTANTIATED
         self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
         self._unsolved = True  # something was set since `start` last ran
-        self._stale = bool(layout.lazy)  # lazy variables do not belong to the present state
+        self._stale = set(layout.lazy)  # groups that do not belong to the present state
         self._failure = ""  # of the start
         self._misuse = ""  # a call that FMI forbids
 
@@ -92,8 +89,8 @@ class UnitSlave(Fmi2Slave):
     def advance(self, time: float, step: float) -> None:
         """Step from `time` by `step` and write the outputs; on error leave all as it was."""
 
-    def observe(self) -> None:
-        """Write the lazy variables of the present state."""
+    def observe(self, group: str) -> None:
+        """Write the lazy variables of `group` for the present state."""
 
     def model_state(self) -> bytes:
         """Return what the model holds beyond the values."""
@@ -132,8 +129,8 @@ class UnitSlave(Fmi2Slave):
         if not problem and self._mode != STEP:
             problem = "a step is due between the end of initialization and termination only"
         if not problem:
-            problem = self._attempt(self._checked_step, current_time, step_size)
-            self._stale = bool(self.layout.lazy)
+            problem = attempt(self._checked_step, current_time, step_size)
+            self._stale = set(self.layout.lazy)
         if problem:
             self._report(f"step from t = {current_time} s by {step_size} s refused: {problem}")
         return not problem
@@ -154,9 +151,9 @@ class UnitSlave(Fmi2Slave):
         """Prepare and start where something was set since; the reason of a failure is kept."""
         if not self._unsolved:
             return
-        self._failure = self._attempt(self._initialize)
+        self._failure = attempt(self._initialize)
         self._unsolved = False
-        self._stale = bool(self.layout.lazy)
+        self._stale = set(self.layout.lazy)
         if self._failure:
             self.values[self.layout.outputs] = math.nan
             if self._prepared_for is None:
@@ -164,6 +161,9 @@ class UnitSlave(Fmi2Slave):
 
     def _initialize(self) -> None:
         self._check_inputs()
+        for i in self.layout.settable["Real"]:
+            if math.isnan(self.values[i]):
+                raise UnitError(f"parameter {self.layout.variables[i].name} is not a number")
         self._prepare_if_changed()
         self.start()
 
@@ -232,12 +232,13 @@ class UnitSlave(Fmi2Slave):
     def _update(self, vrs: list[int]) -> None:
         if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
             self._solve()
-        if self._stale and not self.layout.lazy.isdisjoint(vrs):
-            problem = self._failure or self._attempt(self.observe)
-            if problem:
-                self.values[list(self.layout.lazy)] = math.nan
-                self._report(f"fields not computed: {problem}", Fmi2Status.warning)
-            self._stale = False
+        for group in tuple(self._stale):
+            if not self.layout.lazy[group].isdisjoint(vrs):
+                problem = self._failure or attempt(self.observe, group)
+                if problem:
+                    self.values[list(self.layout.lazy[group])] = math.nan
+                    self._report(f"{group} not computed: {problem}", Fmi2Status.warning)
+                self._stale.discard(group)
 
     # -- state ---------------------------------------------------------------
 
@@ -248,7 +249,7 @@ class UnitSlave(Fmi2Slave):
             self._mode,
             prepared,
             self._unsolved,
-            self._stale,
+            sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale),
             self.start_time,
             self._store.pack(),
             [self._failure, self._misuse, *self.strings.values()],
@@ -256,7 +257,7 @@ class UnitSlave(Fmi2Slave):
         ).pack(self.digest)
 
     def _set_fmu_state(self, state: bytes) -> None:
-        problem = self._attempt(self._restore, state)
+        problem = attempt(self._restore, state)
         if problem:
             self._misuse = problem
             self._report(problem, Fmi2Status.error)
@@ -269,8 +270,8 @@ class UnitSlave(Fmi2Slave):
         if state.prepared:
             self._prepare_if_changed()
             self.restore_model(state.model)
-        self._mode, self._unsolved, self._stale = state.mode, state.unsolved, state.stale
-        self.start_time = state.start_time
+        self._mode, self._unsolved, self.start_time = state.mode, state.unsolved, state.start_time
+        self._stale = {group for i, group in enumerate(self.layout.lazy) if state.stale >> i & 1}
 
     @staticmethod
     def _fmu_state_to_bytes(state: bytes) -> bytes:
@@ -279,19 +280,6 @@ class UnitSlave(Fmi2Slave):
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> bytes:
         return state
-
-    # -- failure -------------------------------------------------------------
-
-    @staticmethod
-    def _attempt(action: Callable[..., None], *arguments: Any) -> str:
-        """Run `action`; return what went wrong, empty if nothing did."""
-        try:
-            action(*arguments)
-        except (UnitError, ValueError) as error:
-            return str(error) or type(error).__name__
-        except Exception as error:  # nothing may cross the C boundary
-            return f"{type(error).__name__}: {error}"
-        return ""
 
     def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
         # the text passes through printf on its way out

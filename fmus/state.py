@@ -17,9 +17,10 @@ class UnitState:
     ----------
     mode : int
         Where the unit stands in the FMI state machine.
-    prepared, unsolved, stale : bool
-        A model belongs to the parameters; something was set since the start was
-        solved; the lazy variables do not belong to the present state.
+    prepared, unsolved : bool
+        A model belongs to the parameters; something was set since the start was solved.
+    stale : int
+        One bit for each group of lazy variables that does not belong to the present state.
     start_time : float
         Time at the start [s].
     values : bytes
@@ -33,7 +34,7 @@ class UnitState:
     mode: int
     prepared: bool
     unsolved: bool
-    stale: bool
+    stale: int
     start_time: float
     values: bytes
     texts: list[str]
@@ -76,7 +77,7 @@ def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
         mode,
         bool(prepared),
         bool(unsolved),
-        bool(stale),
+        stale,
         time,
         state[start : start + n_values],
         read,

@@ -36,8 +36,9 @@ class Variable:
         or a calculated parameter depends; None: possibly on all of them.
     kind : str
         FMI type.
-    lazy : bool
-        Computed only when asked for; costs nothing otherwise.
+    lazy : str
+        Group of outputs that are computed together, only when one of them is asked for;
+        empty for outputs of every step.
     """
 
     name: str
@@ -50,7 +51,7 @@ class Variable:
     depends_on: tuple[str, ...] = ()
     starts_on: tuple[str, ...] | None = None
     kind: Kind = "Real"
-    lazy: bool = False
+    lazy: str = ""
 
     @property
     def variability(self) -> Variability:

@@ -20,9 +20,13 @@ def test_blocks_of_a_rotor():
     layout = Layout(variables)
     assert layout.inputs == slice(0, 1 + 2 * 36)
     assert layout.outputs == slice(73, 73 + 16)
-    assert {variables[i].name.split(".")[0] for i in layout.lazy} == {"amplitude", "stress"} | {
-        f"node[{k}]" for k in range(1, 6)
+    assert {variables[i].name for i in layout.lazy["extremes"]} == {
+        "amplitude.max",
+        "amplitude.max_z",
+        "stress.max",
+        "stress.max_z",
     }
+    assert len(layout.lazy["fields"]) == 4 * 5
 
 
 def test_start_values_of_a_train_are_taken():

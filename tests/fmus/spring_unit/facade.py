@@ -2,8 +2,9 @@
 
 import struct
 
+from fmus.failure import UnitError
 from fmus.layout import Layout
-from fmus.slave import UnitError, UnitSlave
+from fmus.slave import UnitSlave
 from fmus.variable import Variable
 
 VARIABLES = (
@@ -19,7 +20,7 @@ VARIABLES = (
     Variable("rigid", "parameter", "", "not allowed", False, kind="Boolean"),
     Variable("label", "parameter", "", "a name, 100 % free", "plain", kind="String"),
     Variable("compliance", "calculatedParameter", "", "1 / stiffness", starts_on=("stiffness",)),
-    Variable("energy", "output", "J", "energy in the spring", lazy=True),
+    Variable("energy", "output", "J", "energy in the spring", lazy="energy"),
 )
 LAYOUT = Layout(VARIABLES)
 
@@ -55,7 +56,7 @@ class SpringSlave(UnitSlave):
         self.work += -self._force() * self.inputs[1] * step
         self.values[2:4] = self._force(), self.work
 
-    def observe(self):
+    def observe(self, group):
         self.observed += 1
         self.values[LAYOUT["energy"]] = 0.5 * self.stiffness * self.inputs[0] ** 2
 

@@ -1,0 +1,129 @@
+"""The rotor as an FMU: values in, shaft, values out.  The one module here that knows FMI."""
+
+from __future__ import annotations
+
+import json
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fmus import port
+from fmus.failure import UnitError
+from fmus.layout import Layout
+from fmus.slave import UnitSlave
+from rotor_fmu.rotor import Rotor
+from rotor_fmu.rotor_state import RotorState
+from rotor_fmu.statics import target_loads
+from rotor_fmu.train import Train
+
+_LAW = len(port.LAW)
+_METHODS = ("irs", "guyan", "craig-bampton", "none")
+
+
+@lru_cache(maxsize=4)
+def _train_and_layout(train_text: str, starts_text: str) -> tuple[Train, Layout]:
+    train = Train.from_json(train_text)
+    names = [b.name for b in train.bearings], [w.name for w in train.wheels]
+    return train, Layout(port.rotor(*names, train.nodes, json.loads(starts_text)))
+
+
+class RotorSlave(UnitSlave):
+    """The shaft of a train; the train and its start values lie in the FMU's resources."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        resources = Path(kwargs["resources"])
+        files = (resources / "train.json").read_text(), (resources / "starts.json").read_text()
+        self._train, layout = _train_and_layout(*files)
+        super().__init__(layout, **kwargs)
+        bearings = len(self._train.bearings)
+        law = self.inputs[1:].reshape(bearings, _LAW)
+        self._law = (
+            law[:, :4],
+            law[:, 4:20].reshape(bearings, 4, 4),
+            law[:, 20:].reshape(bearings, 4, 4),
+        )
+        self._journals = self.values[layout.outputs].reshape(bearings, 8)
+        self._built_for: dict[str, Any] | None = None
+
+    def _value(self, name: str) -> float:
+        return float(self.values[self.layout[name]])
+
+    def _per_wheel(self, key: str) -> list[float]:
+        return [self._value(f"wheel[{j}].{key}") for j in range(1, len(self._train.wheels) + 1)]
+
+    def prepare(self) -> None:
+        """Build the shaft of the parameters; loads and positions follow from train and gravity."""
+        train, gravity = self._train, self._value("gravity")
+        if gravity < 0.0:
+            raise UnitError(f"gravity = {gravity} m/s2, allowed is >= 0; it acts against y")
+        loads = target_loads(train, gravity)
+        for i, seat in enumerate(train.bearings, 1):
+            self.values[self.layout[f"bearing[{i}].load"]] = loads[i - 1]
+            self.values[self.layout[f"bearing[{i}].z"]] = train.z[seat.node]
+        for j, wheel in enumerate(train.wheels, 1):
+            self.values[self.layout[f"wheel[{j}].z"]] = train.z[wheel.node]
+        self.values[self.layout.block("node[1].z", f"node[{train.nodes}].z")] = train.z
+        self._build()
+
+    def _build(self) -> None:
+        """Make the rotor anew where something it is built of has changed."""
+        method = self.strings[self.layout["reduction"]]
+        if method not in _METHODS:
+            raise UnitError(f"reduction = {method!r}, allowed are {', '.join(_METHODS)}")
+        built_for: dict[str, Any] = {
+            "reduction": method,
+            "gravity": self._value("gravity"),
+            "speed": float(self.inputs[0]),
+            "fracture_time": self._value("fracture.time"),
+        }
+        for key in ("unbalance", "unbalance_phase", "blade_unbalance", "blade_phase"):
+            built_for[key] = self._per_wheel(key)
+        if built_for != self._built_for:
+            self._built_for = None
+            self._rotor = Rotor(self._train, **built_for)
+            self._built_for = built_for
+
+    def start(self) -> None:
+        """Start from the laws at the inputs or from the start parameters."""
+        self._build()  # the speed is an input
+        orbit = bool(self._value("start.orbit"))
+        if self._value("start.from_law"):
+            self._rotor.start_from_law(*self._law, orbit=orbit, time=self.start_time)
+        else:
+            parts = [self._start_positions(part) for part in ("", "_cos", "_sin")]
+            if not orbit:
+                parts[1:] = np.zeros_like(parts[0]), np.zeros_like(parts[0])
+            self._rotor.start_from_positions(*parts, time=self.start_time)
+        self._journals[:] = self._rotor.kinematics()
+
+    def _start_positions(self, part: str) -> np.ndarray:
+        """Return the start parameters of one part, (n_b, 4)."""
+        bearings = range(1, len(self._train.bearings) + 1)
+        return np.array(
+            [[self._value(f"bearing[{i}].start.{q}{part}") for q in port.POSITION] for i in bearings]
+        )
+
+    def advance(self, time: float, step: float) -> None:
+        """Step the shaft under the laws at the inputs."""
+        self._rotor.step(time, step, *self._law, float(self.inputs[0]))
+        self._journals[:] = self._rotor.kinematics()
+
+    def observe(self, group: str) -> None:
+        """Write the largest amplitude and stress, or displacement, amplitude and stress of all nodes."""
+        if group == "extremes":
+            self.values[self.layout.block("amplitude.max", "stress.max_z")] = self._rotor.extremes()
+            return
+        fields, nodes = self._rotor.fields(), self._train.nodes
+        for key in ("x", "y", "amplitude", "stress"):
+            self.values[self.layout.block(f"node[1].{key}", f"node[{nodes}].{key}")] = getattr(fields, key)
+
+    def model_state(self) -> bytes:
+        """Return the state of the shaft."""
+        return self._rotor.get_state().to_bytes()
+
+    def restore_model(self, state: bytes) -> None:
+        """Take back the state of the shaft."""
+        self._build()
+        self._rotor.set_state(RotorState.from_bytes(state))
