@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import xarray as xr
 
@@ -21,7 +23,7 @@ def train() -> Train:
     """278 shoulders, 68 m, eleven bearings, LP bodies with wheels."""
     edges = np.linspace(0.0, 68.0, 279)
     shoulders = []
-    for left, right in zip(edges[:-1], edges[1:], strict=True):
+    for left, right in itertools.pairwise(edges):
         middle = (left + right) / 2
         near = min(abs(middle - z) for z in Z)
         outer = 0.8 if near < 0.8 else 1.05 if near < 1.4 else 1.5

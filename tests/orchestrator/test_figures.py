@@ -196,7 +196,7 @@ def test_names_of_bearings_do_not_overlap(record, train):
     names = [text for text in figure.axes[0].texts if text.get_text().startswith(synthetic_record.NAMES)]
     assert len(names) == len(synthetic_record.NAMES)
     for text in names:
-        text.arrow_patch = None  # the extent would include the leader
+        text.arrowprops = text.arrow_patch = None  # the extent would include the leader
     extents = sorted((text.get_window_extent() for text in names), key=lambda box: box.x0)
     for left, right in itertools.pairwise(extents):
         assert left.x1 < right.x0

@@ -1,0 +1,5 @@
+"""``python -m orchestrator`` is the command ``bladeloss``."""
+
+from orchestrator.cli import main
+
+main()

@@ -1,0 +1,251 @@
+"""The command ``bladeloss``.
+
+Only the options are declared here; what a command does is imported when it runs, so that
+``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+app = typer.Typer(
+    name="bladeloss",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_show_locals=False,
+)
+
+
+class Depth(StrEnum):
+    """Modelling depth of a bearing."""
+
+    V1 = "v1"
+    V2 = "v2"
+    V3 = "v3"
+
+
+class Coupling(StrEnum):
+    """How rotor and bearings exchange values."""
+
+    LINEAR_IMPLICIT = "linear-implicit"
+    GAUSS_SEIDEL = "gauss-seidel"
+    JACOBI = "jacobi"
+
+
+class Reduction(StrEnum):
+    """Reduction of the shaft."""
+
+    IRS = "irs"
+    GUYAN = "guyan"
+    CRAIG_BAMPTON = "craig-bampton"
+    NONE = "none"
+
+
+class Format(StrEnum):
+    """File type of a figure."""
+
+    PNG = "png"
+    PDF = "pdf"
+    SVG = "svg"
+
+
+RUN_HELP = (
+    "Simulate a scenario; without argument the reference scenario of 2 s.\n\n"
+    "Builds the FMUs that are missing or stale, finds the static equilibrium of the train on its rotating "
+    "films, runs to the end time and leaves a folder with the record (record.nc for analysis, record.csv for "
+    "FMI tools), the summary (summary.txt, summary.json), the scenario as run (scenario.toml) and the "
+    "figures.\n\n"
+    "Options replace values of the scenario; what is not given stays as there. The reference scenario has "
+    "depth v1, coupling linear-implicit, reduction irs, step 1e-4 s."
+)
+RUN_EPILOG = """\
+[bold]Examples[/bold]
+
+  bladeloss run                                the reference scenario
+  bladeloss run --depth v2                     the same with aligned films
+  bladeloss run --depth-at LP2-front=v2        v1, but for one bearing
+  bladeloss run small                          a small train: some seconds
+  bladeloss run my.toml --end 0.5 --out cut    your own, cut short
+
+[bold]Exit status[/bold]
+
+  0    finished, valid             4    a step was refused
+  1    internal error              5    a unit failed
+  2    wrong input, no run         6    the motion grew without bound
+  3    no static equilibrium       130  interrupted
+
+  From 3 on, what was simulated lies in <DIR>-partial, with the reason
+  in PARTIAL.txt.
+"""
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib import metadata
+
+        typer.echo(f"bladeloss {metadata.version('bladeloss')}")
+        raise typer.Exit
+
+
+@app.callback()
+def bladeloss(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Simulate what a turbine train on hydrodynamic bearings does when a blade breaks.
+
+    Start with [bold]bladeloss run[/bold]. Rotor and bearings are FMUs; their depth is one word.
+    """
+
+
+@app.command(help=RUN_HELP, epilog=RUN_EPILOG)
+def run(
+    scenario: Annotated[
+        str, typer.Argument(help="A bundled scenario (see [bold]bladeloss info[/bold]) or a TOML file.")
+    ] = "paper",
+    depth: Annotated[
+        Depth | None,
+        typer.Option(help="All bearings: v1 Reynolds with misalignment, v2 aligned, v3 short bearing."),
+    ] = None,
+    depth_at: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=DEPTH", help="One bearing, e.g. LP2-front=v2; repeatable."),
+    ] = None,
+    coupling: Annotated[
+        Coupling | None,
+        typer.Option(
+            metavar="NAME",
+            help="linear-implicit (affine law); to compare, explicit and force only: gauss-seidel, jacobi.",
+        ),
+    ] = None,
+    step: Annotated[float | None, typer.Option(metavar="SECONDS", help="Macro step.")] = None,
+    end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
+    reduction: Annotated[
+        Reduction | None,
+        typer.Option(metavar="NAME", help="Of the shaft: irs, guyan, craig-bampton or none."),
+    ] = None,
+    bearing: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Shown in the figures; by default the most loaded one."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Results; by default results/<SCENARIO>-<DEPTH>."),
+    ] = None,
+    fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    figure_format: Annotated[
+        list[Format] | None,
+        typer.Option("--format", metavar="TYPE", help="Of the figures: png (default), pdf, svg; repeatable."),
+    ] = None,
+    figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
+) -> None:
+    """Simulate a scenario, see `RUN_HELP`."""
+    overrides: dict[str, Any] = {
+        key: value
+        for key, value in (
+            ("depth", depth and str(depth)),
+            ("depth_at", _assignments(depth_at or [])),
+            ("coupling", coupling and str(coupling)),
+            ("step", step),
+            ("end", end),
+            ("reduction", reduction and str(reduction)),
+        )
+        if value not in (None, {})
+    }
+
+    def work() -> int:
+        from rich.console import Console
+
+        from orchestrator.run_command import RunRequest
+        from orchestrator.run_command import run as run_scenario
+
+        formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
+        request = RunRequest(scenario, overrides, out, fmus, bearing, formats)
+        return run_scenario(request, Console(), Console(stderr=True))
+
+    _guarded(work)
+
+
+@app.command()
+def build(
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    train: Annotated[
+        list[str],
+        typer.Option(metavar="TRAIN", help="Bundled train or folder with train.toml; repeatable."),
+    ] = ["turbine"],  # noqa: B006
+) -> None:
+    """Build the FMUs: the rotor of a train, and a bearing of each depth.
+
+    For other FMI tools; [bold]bladeloss run[/bold] builds what it needs by itself. The same
+    sources give the same bytes.
+    """
+
+    def work() -> int:
+        from rich.console import Console
+
+        from orchestrator.fmu_folder import build_all
+
+        build_all(out, train, Console())
+        return 0
+
+    _guarded(work)
+
+
+@app.command()
+def info() -> None:
+    """List the bundled scenarios and trains, with the names of bearings and wheels."""
+
+    def work() -> int:
+        from rich.console import Console
+
+        from orchestrator.info_command import show
+
+        show(Console())
+        return 0
+
+    _guarded(work)
+
+
+def _assignments(items: list[str]) -> dict[str, str]:
+    """``["A=v2"]`` as ``{"A": "v2"}``; a depth is checked here, a name against the train later."""
+    found: dict[str, str] = {}
+    for item in items:
+        name, equals, depth = (part.strip() for part in item.partition("="))
+        if not (name and equals and depth in list(Depth)):
+            allowed = ", ".join(Depth)
+            raise typer.BadParameter(
+                f"{item!r} is not NAME=DEPTH with a depth of {allowed}", param_hint="--depth-at"
+            )
+        found[name] = depth
+    return found
+
+
+def _guarded(work: Callable[[], int]) -> None:
+    """Do the work; an error of the input becomes its text on stderr and exit status 2."""
+    from orchestrator.errors import OrchestratorError
+    from orchestrator.exit_status import INPUT_ERROR, STATUS
+    from orchestrator.outcome import Outcome
+    from rotor_fmu.train_file import TrainFileError
+
+    try:
+        status = work()
+    except (OrchestratorError, TrainFileError) as error:
+        typer.secho(f"error: {error}", err=True, fg="red")
+        status = INPUT_ERROR
+    except KeyboardInterrupt:
+        typer.secho("interrupted; nothing was written", err=True, fg="red")
+        status = STATUS[Outcome.INTERRUPTED]
+    raise typer.Exit(status)
+
+
+def main() -> None:
+    """Entry point of the command."""
+    sys.exit(app())

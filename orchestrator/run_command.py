@@ -1,0 +1,132 @@
+"""``bladeloss run``: from a scenario's name to a folder of results and an exit status."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+
+from orchestrator import exit_status
+from orchestrator.errors import OrchestratorError
+from orchestrator.figures.write import write_figures
+from orchestrator.fmu_folder import ensure_fmus
+from orchestrator.progress import show_progress
+from orchestrator.record_files import write_record
+from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
+from orchestrator.scenario_file import load_scenario, scenario_toml, train_of
+from orchestrator.simulate import Result, simulate
+from orchestrator.summary import RunSummary, summarise
+from orchestrator.summary_table import SummaryTable, to_text
+
+if TYPE_CHECKING:
+    from orchestrator.scenario import Scenario
+    from rotor_fmu.train import Train
+
+
+@dataclass(frozen=True)
+class RunRequest:
+    """What the command line asks for.
+
+    Attributes
+    ----------
+    source : str
+        Name of a bundled scenario or path of a TOML file.
+    overrides : mapping
+        Values in place of the scenario's, in the shape of the file.
+    out : Path or None
+        Folder of the results; None: ``results/<scenario>-<depth>``.
+    fmus : Path
+        Folder of the FMUs.
+    bearing : str or None
+        The analysed bearing; None: the most loaded one.
+    formats : sequence of str
+        File types of the figures; none for no figures.
+    """
+
+    source: str
+    overrides: Mapping[str, Any] = field(default_factory=dict)
+    out: Path | None = None
+    fmus: Path = Path("fmus")
+    bearing: str | None = None
+    formats: Sequence[str] = ("png",)
+
+
+def default_folder(source: str, scenario: Scenario) -> Path:
+    """``results/<scenario>-<depth>``, with ``-mixed`` where bearings differ."""
+    depths = {scenario.depth, *scenario.depth_at.values()}
+    mixed = "-mixed" if len(depths) > 1 else ""
+    return Path("results") / f"{Path(source).stem}-{scenario.depth}{mixed}"
+
+
+def run(request: RunRequest, console: Console, errors: Console) -> int:
+    """Run a scenario, write its results, say what came out.
+
+    Parameters
+    ----------
+    request : RunRequest
+        What to run.
+    console, errors : rich.console.Console
+        For output and for what went wrong.
+
+    Returns
+    -------
+    int
+        Exit status, see `orchestrator.exit_status`.
+
+    Raises
+    ------
+    OrchestratorError
+        For anything wrong with the input; nothing is written then.
+    """
+    scenario = load_scenario(request.source, request.overrides)
+    train = train_of(scenario)
+    names = [seat.name for seat in train.bearings]
+    if request.bearing is not None and request.bearing not in names:
+        raise OrchestratorError(
+            f"--bearing {request.bearing}: unknown bearing; allowed are {', '.join(names)}"
+        )
+    folder = request.out or default_folder(request.source, scenario)
+    check_folder(folder)
+    ensure_fmus(request.fmus, train, {scenario.depth_of(name) for name in names}, console)
+    with show_progress(scenario.end, console) as progress:
+        result = simulate(scenario, request.fmus, progress)
+    summary = summarise(result, analysed=request.bearing)
+    console.print(SummaryTable(summary))
+    if not result.outcome.ok:
+        folder = partial_folder(folder)
+    if result.outcome.ok or summary.phases:
+        _write(result, summary, scenario, train, request, folder)
+        kind = "Results" if result.outcome.ok else "Partial results"
+        console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
+        if request.formats and summary.phases:
+            console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
+    if not result.outcome.ok:
+        errors.print(f"[red]not finished[/red] ({summary.outcome}): {summary.message or summary.advice}",
+                     highlight=False, soft_wrap=True)  # fmt: skip
+    return exit_status.of_outcome(result.outcome)
+
+
+def _write(result: Result, summary: RunSummary, scenario: Scenario, train: Train, request: RunRequest,
+           folder: Path) -> None:  # fmt: skip
+    """Write everything that a run leaves behind, all or nothing."""
+    with result_folder(folder) as fresh:
+        write_record(result.record, fresh)
+        (fresh / "summary.txt").write_text(to_text(summary), encoding="utf-8")
+        (fresh / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+        (fresh / "scenario.toml").write_text(scenario_toml(scenario), encoding="utf-8")
+        if not summary.finished:
+            reason = (
+                f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
+            )
+            (fresh / PARTIAL).write_text(reason, encoding="utf-8")
+        if request.formats and summary.phases:
+            write_figures(
+                [result.record],
+                fresh / FIGURES,
+                train=train,
+                bearing=summary.analysed,
+                formats=request.formats,
+            )
