@@ -77,6 +77,7 @@ def test_sources_follow_imports():
     assert set(files["spring_unit"]) == {"__init__.py", "facade.py"}
     assert set(files["fmus"]) == {
         "__init__.py",
+        "failure.py",
         "layout.py",
         "slave.py",
         "state.py",
