@@ -5,7 +5,7 @@ The gyroscopic matrix is left out of the basis (it is projected by it).
 
 `irs-plain` is the paper's iterated IRS.  It converges to free-free modal truncation:
 free-free frequencies are near exact, but the static flexibility at the bearings suffers.
-`irs`, the default, complements it by the static modes of its masters, at equal size.
+`irs`, the default, complements its lowest modes by static and gyroscopic ones, at equal size.
 """
 
 from __future__ import annotations
@@ -27,8 +27,11 @@ METHODS: tuple[str, ...] = get_args(Method)
 DEFAULT_SIZE = 128
 """Reduced degrees of freedom, both planes."""
 
-IRS_MODES = 20
+IRS_MODES = 16
 """Elastic modes of one plane by whose frequencies IRS is judged, and which complement the static modes."""
+
+GYROSCOPIC_MODES = 12
+"""How many of these, from the lowest, bring their response to gyroscopic moments."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,14 +127,25 @@ def reduce(
     kept = default_masters(model, half) if masters is None else masters
     if method == "guyan":
         return project(model, guyan(mass, stiffness, kept), method)
-    modes = min(IRS_MODES, half // 3)
+    modes = min(IRS_MODES, half // 4)
     converged = improved_reduced_system(
         mass, stiffness, kept, modes=modes, tolerance=tolerance, max_iterations=max_iterations
     )
     if method == "irs-plain":
         return project(model, converged, method)
-    static = default_masters(model, half - modes - 1) if masters is None else masters
-    return project(model, complemented(mass, stiffness, converged, static, load, modes=modes), method)
+    gyroscopic = min(GYROSCOPIC_MODES, modes)
+    static = default_masters(model, half - modes - gyroscopic - 1) if masters is None else masters
+    basis = complemented(
+        mass,
+        stiffness,
+        converged,
+        static,
+        load=load,
+        polar=model.plane_polar,
+        modes=modes,
+        gyroscopic=gyroscopic,
+    )
+    return project(model, basis, method)
 
 
 def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:

@@ -73,7 +73,7 @@ def improved_reduced_system(
     stiffness: Array,
     masters: Indices,
     *,
-    modes: int = 20,
+    modes: int,
     tolerance: float = 1e-7,
     max_iterations: int = 100,
 ) -> Basis:
@@ -140,14 +140,25 @@ def irs_iterations(mass: Array, stiffness: Array, masters: Indices) -> Iterator[
 
 
 def complemented(
-    mass: Array, stiffness: Array, converged: Basis, masters: Indices, load: Array, *, modes: int = 20
+    mass: Array,
+    stiffness: Array,
+    converged: Basis,
+    masters: Indices,
+    *,
+    load: Array,
+    polar: Array,
+    modes: int,
+    gyroscopic: int,
 ) -> Basis:
     """Static modes of masters, completed by the lowest modes of a converged IRS.
 
-    Converged IRS is a truncation to free-free modes: it has lost the static flexibility under forces at
-    its masters.  This basis has all of Guyan's static modes, the lowest elastic modes that IRS found, and
-    the shape under a distributed load with the masters held.  Statics under forces at the masters and under
-    that load are exact, and so are the lowest free-free frequencies.
+    Converged IRS is a truncation to free-free modes at rest: it has lost the static flexibility under
+    forces at its masters and knows nothing of rotation.  This basis has
+
+    - all of Guyan's static modes, so that statics under forces at the masters are exact,
+    - the shape under a distributed load with the masters held, so that the sag is exact,
+    - the lowest elastic modes that IRS found, so that their free-free frequencies are exact,
+    - the static response to the gyroscopic moments of these modes: their change with speed to first order.
 
     Parameters
     ----------
@@ -159,8 +170,10 @@ def complemented(
         Degrees of freedom that are kept; the first reduced coordinates.
     load : ndarray, (p,)
         A static load, here gravity.
-    modes : int
-        Elastic modes to add.
+    polar : ndarray, (p, p)
+        Polar inertia; the speed times it couples the planes.
+    modes, gyroscopic : int
+        Elastic modes to add; how many of them, from the lowest, with their gyroscopic response.
 
     Raises
     ------
@@ -170,8 +183,9 @@ def complemented(
     V = converged.vectors
     _, shapes = sl.eigh(_symmetric(V.T @ stiffness @ V), _symmetric(V.T @ mass @ V))
     rigid = V.shape[1] - len(converged.history[-1])
+    elastic = V @ shapes[:, rigid : rigid + modes]
     part = _partition(stiffness, masters)
-    extra = np.column_stack([part.solve(load), V @ shapes[:, rigid : rigid + modes]])
+    extra = np.column_stack([part.solve(load), elastic, part.solve(polar @ elastic[:, :gyroscopic])])
     return Basis(enriched(mass, _static_modes(stiffness, part), extra), converged.history)
 
 
