@@ -60,6 +60,10 @@ class AffineStep:
         self._law[:, :, :4] = K
         self._law[:, :, 4:] = C
 
+    def wrench(self, F0: Array, journals: Array, static: Equilibrium[np.float64]) -> Array:
+        """Wrenches of the law last set, counted from those of the static equilibrium, (4 n_b,)."""
+        return F0.reshape(-1) - static.wrench - self._react(journals)
+
     def advance(
         self,
         maps: StepMaps,

@@ -14,6 +14,7 @@ from rotor_fmu.condensation import CondensedShaft, condense_harmonic
 from rotor_fmu.modal_shaft import ModalShaft
 from rotor_fmu.state_space import StepMaps, harmonic_map, step_maps
 from rotor_fmu.unbalance import Unbalance
+from rotor_fmu.work import WorkMaps, work_maps
 
 Array = NDArray[np.float64]
 Item = TypeVar("Item")
@@ -43,6 +44,7 @@ class MapCache:
     def __init__(self, model: ShaftModel, shaft: ModalShaft, unbalance: Unbalance) -> None:
         self._model, self._shaft, self._unbalance = model, shaft, unbalance
         self._steps: OrderedDict[tuple[float, float], StepMaps] = OrderedDict()
+        self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
         self._kicks: OrderedDict[tuple[float, float], Array] = OrderedDict()
         self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
 
@@ -56,12 +58,13 @@ class MapCache:
         end : float
             Instant at the end of the step, for its rounding [s].
         """
-        if (speed, step) not in self._steps:
-            noise = _ROUNDING * (abs(end) + step)
-            known = (other for at, other in self._steps if at == speed)
-            candidates = (float(f"{step:.8e}"), *known)
-            step = next((other for other in candidates if abs(other - step) <= noise), step)
-        return _recall(self._steps, (speed, step), lambda: self._new_step(speed, step))
+        length = self._settled(speed, step, end)
+        return _recall(self._steps, (speed, length), lambda: self._new_step(speed, length))
+
+    def work(self, speed: float, step: float, end: float = 0.0) -> WorkMaps:
+        """Works over a step of which `step` has been asked, or over a part of one."""
+        length = self._settled(speed, step, end)
+        return _recall(self._works, (speed, length), lambda: self._new_work(speed, length))
 
     def kick(self, speed: float, duration: float) -> Array:
         """State after `duration` from rest under the lost blade's unbalance alone, (2 m, 2)."""
@@ -71,10 +74,24 @@ class MapCache:
         """Steady vibration under the nominal unbalance, condensed onto the journals."""
         return _recall(self._harmonics, speed, lambda: self._new_harmonic(speed))
 
-    def _new_step(self, speed: float, step: float) -> StepMaps:
+    def _settled(self, speed: float, step: float, end: float) -> float:
+        if (speed, step) in self._steps:
+            return step
+        noise = _ROUNDING * (abs(end) + step)
+        known = (other for at, other in self._steps if at == speed)
+        candidates = (float(f"{step:.8e}"), *known)
+        return next((other for other in candidates if abs(other - step) <= noise), step)
+
+    def _forces(self, speed: float) -> Array:
         nominal = self._unbalance.nominal_force(self._shaft, speed)
         blade = self._unbalance.blade_force(self._shaft, speed)
-        return step_maps(self._shaft, speed, step, np.hstack([nominal, blade]))
+        return np.hstack([nominal, blade])
+
+    def _new_step(self, speed: float, step: float) -> StepMaps:
+        return step_maps(self._shaft, speed, step, self._forces(speed))
+
+    def _new_work(self, speed: float, step: float) -> WorkMaps:
+        return work_maps(self._shaft, speed, step, self._forces(speed))
 
     def _new_kick(self, speed: float, duration: float) -> Array:
         return harmonic_map(self._shaft, speed, duration, self._unbalance.blade_force(self._shaft, speed))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +12,7 @@ from rotor_fmu import initial_state
 from rotor_fmu.affine_step import AffineStep
 from rotor_fmu.assembly import ShaftModel, assemble
 from rotor_fmu.condensation import Equilibrium, condense_static
+from rotor_fmu.energy import Energy, EnergyMeter
 from rotor_fmu.fields import Extremes, FieldMap, NodeFields
 from rotor_fmu.map_cache import MapCache
 from rotor_fmu.modal_shaft import to_modal
@@ -19,6 +21,7 @@ from rotor_fmu.rotor_state import RotorState
 from rotor_fmu.stress import BendingStress, bending_stress
 from rotor_fmu.train import Train
 from rotor_fmu.unbalance import Unbalance
+from rotor_fmu.work import Work, WorkLedger
 
 Array = NDArray[np.float64]
 
@@ -42,6 +45,8 @@ class Rotor:
         Unbalance added by the blade fracture and its angle at t = 0; default none.
     fracture_time : float
         Instant of the fracture [s].
+    track_work : bool
+        Keep account of the works, at two to three times the cost of a step.
 
     Notes
     -----
@@ -49,6 +54,9 @@ class Rotor:
     of rotation goes on without a jump and the force of the unbalance is U speed^2; the
     tangential force of an angular acceleration is left out.
     """
+
+    _state: RotorState
+    _journals: Array
 
     def __init__(
         self,
@@ -62,26 +70,15 @@ class Rotor:
         blade_unbalance: ArrayLike | None = None,
         blade_phase: ArrayLike | None = None,
         fracture_time: float = math.inf,
+        track_work: bool = False,
     ) -> None:
-        wheels = train.wheels
-
-        def per_wheel(name: str, values: ArrayLike | None, default: ArrayLike) -> Array:
-            array = np.array(default if values is None else values, dtype=np.float64)
-            if array.shape != (len(wheels),):
-                raise ValueError(f"rotor: {name} has shape {array.shape}, allowed is ({len(wheels)},)")
-            return array
-
-        nothing = np.zeros(len(wheels))
-        excitation = Unbalance(
-            amount=per_wheel("unbalance", unbalance, train.nominal_unbalance),
-            phase=per_wheel("unbalance_phase", unbalance_phase, [w.unbalance_phase for w in wheels]),
-            blade_amount=per_wheel("blade_unbalance", blade_unbalance, nothing),
-            blade_phase=per_wheel("blade_phase", blade_phase, nothing),
-            fracture_time=fracture_time,
+        excitation = Unbalance.of_train(
+            train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
         )
         model = assemble(train)
         start_speed = train.speed if speed is None else speed
-        self._set_up(model, reduce(model, reduction), bending_stress(train), excitation, gravity, start_speed)
+        reduced, bending = reduce(model, reduction), bending_stress(train)
+        self._set_up(model, reduced, bending, excitation, gravity, start_speed, track_work)
 
     @classmethod
     def of_matrices(
@@ -93,10 +90,11 @@ class Rotor:
         *,
         gravity: float,
         speed: float,
+        track_work: bool = False,
     ) -> Rotor:
         """A rotor of given matrices instead of a train; see the class."""
         rotor = cls.__new__(cls)
-        rotor._set_up(model, reduced, bending, unbalance, gravity, speed)
+        rotor._set_up(model, reduced, bending, unbalance, gravity, speed, track_work)
         return rotor
 
     def _set_up(
@@ -107,6 +105,7 @@ class Rotor:
         unbalance: Unbalance,
         gravity: float,
         speed: float,
+        track_work: bool,
     ) -> None:
         self.model, self.reduced, self.unbalance = model, reduced, unbalance
         self._speed = speed
@@ -114,6 +113,8 @@ class Rotor:
         self._maps = MapCache(model, self.shaft, unbalance)
         self._stepper = AffineStep(self.shaft)
         self._fields = FieldMap(self.shaft, bending, model.z, gravity)
+        self._energy = EnergyMeter(model, self.shaft, gravity)
+        self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
         self._condensed = condense_static(model, gravity)
         # At rest without wrenches until a start is given.
         nothing = np.zeros(len(self.shaft.bearing))
@@ -192,7 +193,7 @@ class Rotor:
         """
         if not (math.isfinite(H) and H > 0.0 and math.isfinite(speed)):
             raise ValueError(f"rotor: step H = {H} s at {speed} rad/s; allowed are H > 0 and finite numbers")
-        state = self._state
+        state, journals = self._state, self._journals
         angle, fracture = state.angle, self.unbalance.fracture_time
         cos, sin = math.cos(angle), math.sin(angle)
         broken = 1.0 if fracture <= t else 0.0
@@ -206,14 +207,31 @@ class Rotor:
         self._stepper.advance(
             self._maps.step(speed, H, t + H),
             state.modal,
-            self._journals,
+            journals,
             F0,
             (cos, sin, broken * cos, broken * sin),
             kick,
             state.static,
             end,
         )
-        self.set_state(RotorState(end, math.fmod(angle + speed * H, 2.0 * math.pi), state.static))
+        self.set_state(RotorState(end, math.fmod(angle + speed * H, 2.0 * math.pi), state.static, state.work))
+        if self._ledger is not None:
+            w0 = self._stepper.wrench(F0, journals, state.static)
+            w1 = self._stepper.wrench(F0, self._journals, state.static)
+            turn = (angle, speed)
+            done = self._ledger.over_step((t, H), fracture, turn, state.modal, (w0, w1), state.static)
+            work = Work(*(a + b for a, b in zip(state.work, done, strict=True)))
+            self._state = replace(self._state, work=work)
+
+    def energy(self) -> Energy:
+        """Kinetic energy of the vibration, strain energy and potential in gravity now [J]."""
+        return self._energy(self._state)
+
+    def work(self) -> Work:
+        """Works since the start [J]; the rotor must keep account of them (`track_work`)."""
+        if self._ledger is None:
+            raise ValueError("rotor: it keeps no account of works; set track_work at its creation")
+        return self._state.work
 
     def fields(self) -> NodeFields:
         """Displacement, vibration amplitude and normal stress at all nodes now."""

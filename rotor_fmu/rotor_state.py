@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.condensation import Equilibrium
+from rotor_fmu.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3qd")
-_MAGIC = b"rotor\0\0\1"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s3q4d")
+_MAGIC = b"rotor\0\0\2"  # the last byte is the version of the layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,16 +29,20 @@ class RotorState:
         Angle of rotation theta [rad], in [-2 pi, 2 pi].
     static : Equilibrium
         The static equilibrium: n displacements, 4 n_b journal displacements and wrenches.
+    work : Work
+        Done since the start, if the rotor keeps account of it.
     """
 
     modal: Array
     angle: float
     static: Equilibrium[np.float64]
+    work: Work = field(default_factory=Work)
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
         static = self.static
-        header = _HEADER.pack(_MAGIC, len(self.modal), len(static.shape), len(static.wrench), self.angle)
+        sizes = (len(self.modal), len(static.shape), len(static.wrench))
+        header = _HEADER.pack(_MAGIC, *sizes, self.angle, *self.work)
         arrays = (self.modal, static.shape, static.journals, static.wrench)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
@@ -52,10 +57,10 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, angle = _HEADER.unpack_from(data)
+        _, states, displacements, loads, angle, *work = _HEADER.unpack_from(data)
         sizes = (states, displacements, loads, loads)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
         numbers = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
         modal, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
-        return cls(modal, angle, Equilibrium(shape, journals, wrench))
+        return cls(modal, angle, Equilibrium(shape, journals, wrench), Work(*work))

@@ -84,11 +84,8 @@ def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> 
         The maps.
     """
     m, loads = shaft.size, len(shaft.bearing)
-    inputs = np.hstack([shaft.bearing.T, np.zeros((m, loads)), harmonic])
-    drift = np.zeros((inputs.shape[1],) * 2)
-    drift[:loads, loads : 2 * loads] = np.eye(loads) / step
-    drift[2 * loads :, 2 * loads :] = _rotation_rate(harmonic.shape[1], speed)
-    state = _augmented_exponential(shaft, speed, step, inputs, drift)
+    A, scale = augmented_matrix(shaft, speed, step, harmonic)
+    state = _unscaled(scipy.linalg.expm(A * step), scale)
     end = np.ascontiguousarray(state[:, 2 * m + loads : 2 * m + 2 * loads])
     free = np.hstack([state[:, : 2 * m + loads], state[:, 2 * m + 2 * loads :]])
     free[:, 2 * m : 2 * m + loads] -= end
@@ -111,31 +108,58 @@ def harmonic_map(shaft: ModalShaft, speed: float, step: float, harmonic: Array) 
     ndarray, (2 m, 2 h)
         Factors of (cos theta, sin theta) at the start, for each input.
     """
-    drift = _rotation_rate(harmonic.shape[1], speed)
-    return _augmented_exponential(shaft, speed, step, harmonic, drift)[:, 2 * shaft.size :]
+    m = shaft.size
+    A, scale = _scaled(shaft, speed, harmonic, _rotation_rate(harmonic.shape[1], speed))
+    return _unscaled(scipy.linalg.expm(A * step), scale)[:, 2 * m :]
 
 
-def _rotation_rate(columns: int, speed: float) -> Array:
-    """Rate matrix of (cos theta, sin theta), once for each harmonic input."""
-    return np.kron(np.eye(columns // 2), np.array([[0.0, -speed], [speed, 0.0]]))
+def augmented_matrix(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> tuple[Array, Array]:
+    """Rate matrix of z = (x, w, w1 - w0, cos and sin of each harmonic input) within a step.
+
+    Parameters
+    ----------
+    shaft, speed, step, harmonic
+        As for `step_maps`.
+
+    Returns
+    -------
+    matrix : ndarray, (2 m + 8 n_b + 2 h, 2 m + 8 n_b + 2 h)
+        For displacements times `scale`, which makes them of the size of velocities: the norm of A
+        then is of order omega instead of omega^2.
+    scale : ndarray, (m,)
+        Frequencies [rad/s].
+    """
+    m, loads = shaft.size, len(shaft.bearing)
+    inputs = np.hstack([shaft.bearing.T, np.zeros((m, loads)), harmonic])
+    drift = np.zeros((inputs.shape[1],) * 2)
+    drift[:loads, loads : 2 * loads] = np.eye(loads) / step
+    drift[2 * loads :, 2 * loads :] = _rotation_rate(harmonic.shape[1], speed)
+    return _scaled(shaft, speed, inputs, drift)
 
 
-def _augmented_exponential(
-    shaft: ModalShaft, speed: float, step: float, inputs: Array, drift: Array
-) -> Array:
-    """Upper rows of exp of [[A, (0, inputs)], [0, drift]] * step, (2 m, 2 m + columns of inputs)."""
-    m, u = shaft.size, inputs.shape[1]
-    # Displacements times frequency are of the size of velocities: the norm of A falls from omega^2 to omega.
+def _scaled(shaft: ModalShaft, speed: float, inputs: Array, drift: Array) -> tuple[Array, Array]:
+    """[[A, (0, inputs)], [0, drift]] for displacements times frequency, and the frequencies."""
+    m = shaft.size
     elastic = shaft.omega[shaft.omega > 0.0]
     scale = np.maximum(shaft.omega, elastic.min() if elastic.size else 1.0)
-    A = np.zeros((2 * m + u, 2 * m + u))
+    A = np.zeros((2 * m + len(drift),) * 2)
     A[: 2 * m, : 2 * m] = state_matrix(shaft, speed)
     A[:m] *= scale[:, None]
     A[:, :m] /= scale
     A[m : 2 * m, 2 * m :] = inputs
     A[2 * m :, 2 * m :] = drift
-    A *= step
-    state = scipy.linalg.expm(A)[: 2 * m]
+    return A, scale
+
+
+def _unscaled(exponential: Array, scale: Array) -> Array:
+    """Rows of the state, for displacements themselves."""
+    m = len(scale)
+    state = exponential[: 2 * m]
     state[:m] /= scale[:, None]
     state[:, :m] *= scale
     return state
+
+
+def _rotation_rate(columns: int, speed: float) -> Array:
+    """Rate matrix of (cos theta, sin theta), once for each harmonic input."""
+    return np.kron(np.eye(columns // 2), np.array([[0.0, -speed], [speed, 0.0]]))

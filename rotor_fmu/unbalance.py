@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.modal_shaft import ModalShaft
+from rotor_fmu.train import Train
 
 Array = NDArray[np.float64]
 
@@ -42,6 +43,33 @@ class Unbalance:
                 raise ValueError(f"unbalance: {name} {values} must be finite, one value a wheel")
         if np.isnan(self.fracture_time):
             raise ValueError("unbalance: fracture_time is not a number; allowed are instants and infinity")
+
+    @classmethod
+    def of_train(
+        cls,
+        train: Train,
+        amount: ArrayLike | None,
+        phase: ArrayLike | None,
+        blade_amount: ArrayLike | None,
+        blade_phase: ArrayLike | None,
+        fracture_time: float,
+    ) -> Unbalance:
+        """Unbalance with the nominal one of the train, and no lost blade, where None is given."""
+
+        def per_wheel(values: ArrayLike | None, default: ArrayLike) -> Array:
+            return np.array(default if values is None else values, dtype=np.float64)
+
+        nothing = np.zeros(len(train.wheels))
+        unbalance = cls(
+            amount=per_wheel(amount, train.nominal_unbalance),
+            phase=per_wheel(phase, [w.unbalance_phase for w in train.wheels]),
+            blade_amount=per_wheel(blade_amount, nothing),
+            blade_phase=per_wheel(blade_phase, nothing),
+            fracture_time=fracture_time,
+        )
+        if unbalance.amount.shape != nothing.shape:
+            raise ValueError(f"unbalance: {unbalance.amount.shape} values, train has {len(nothing)} wheels")
+        return unbalance
 
     def nominal_force(self, shaft: ModalShaft, speed: float) -> Array:
         """Modal force of the nominal unbalance, factors of (cos theta, sin theta), (m, 2)."""

@@ -35,11 +35,13 @@ def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):
     return model, reduced
 
 
-def matrix_rotor(model, reduced, excitation, *, gravity, speed):
+def matrix_rotor(model, reduced, excitation, *, gravity, speed, track_work=False):
     """A rotor of matrices; they do not tell of bending moments, which here are none."""
     n = model.size
     bending = BendingStress(sp.csr_array((n, n)), np.zeros(n), np.ones((2, n // 4)))
-    return Rotor.of_matrices(model, reduced, bending, excitation, gravity=gravity, speed=speed)
+    return Rotor.of_matrices(
+        model, reduced, bending, excitation, gravity=gravity, speed=speed, track_work=track_work
+    )
 
 
 def gyroscopic(seed=1, nodes=3):
@@ -61,7 +63,7 @@ def unbalance(amount, phase, blade=None, blade_phase=None, fracture_time=math.in
     return Unbalance(*(np.asarray(v, dtype=float) for v in (amount, phase, *blades)), fracture_time)
 
 
-def small_rotor(*, speed=12.0, excitation=None, ground=0.0, gravity=0.0, seed=1):
+def small_rotor(*, speed=12.0, excitation=None, ground=0.0, gravity=0.0, seed=1, track_work=False):
     """The random gyroscopic shaft of three nodes, two bearings, two wheels; `ground` adds springs to K."""
     M, D, G, K = gyroscopic(seed)
     load = np.zeros(len(M))
@@ -70,7 +72,7 @@ def small_rotor(*, speed=12.0, excitation=None, ground=0.0, gravity=0.0, seed=1)
         M, D, G, K + ground * np.eye(len(M)), bearings=(0, 2), wheels=(0, 1), gravity=load
     )
     excitation = excitation or unbalance([0.02, 0.01], [0.3, -1.0])
-    return matrix_rotor(model, reduced, excitation, gravity=gravity, speed=speed)
+    return matrix_rotor(model, reduced, excitation, gravity=gravity, speed=speed, track_work=track_work)
 
 
 def linear_bearings(count=2, seed=5):
