@@ -18,7 +18,8 @@ import scipy.linalg as sl
 from numpy.typing import NDArray
 
 from rotor_fmu.assembly import ShaftModel, plane_x, plane_y
-from rotor_fmu.ritz import Basis, complemented, craig_bampton, guyan, improved_reduced_system
+from rotor_fmu.irs import complemented, improved_reduced_system
+from rotor_fmu.ritz import Basis, craig_bampton, guyan, symmetric
 
 Array = NDArray[np.float64]
 Method = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
@@ -164,8 +165,8 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
     mass, stiffness, polar = (
         V.T @ A @ V for A in (model.plane_mass, model.plane_stiffness, model.plane_polar)
     )
-    M, K = (sl.block_diag(A, A) for A in (_symmetric(mass), _symmetric(stiffness)))
-    polar, zero = _symmetric(polar), np.zeros_like(polar)
+    M, K = (sl.block_diag(A, A) for A in (symmetric(mass), symmetric(stiffness)))
+    polar, zero = symmetric(polar), np.zeros_like(polar)
     alpha, beta = model.rayleigh
     T = np.hstack([plane_x(model.nodes) @ V, plane_y(model.nodes) @ V])
     return ReducedShaft(
@@ -217,7 +218,3 @@ def default_masters(model: ShaftModel, count: int) -> NDArray[np.intp]:
     slopes = (2 * k + 1 for k in range(model.nodes) if 2 * k + 1 not in chosen)
     chosen |= {slope for slope, _ in zip(slopes, range(count - len(chosen)), strict=False)}
     return np.array(sorted(chosen), dtype=np.intp)
-
-
-def _symmetric(matrix: Array) -> Array:
-    return (matrix + matrix.T) / 2.0

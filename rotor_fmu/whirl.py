@@ -177,7 +177,7 @@ def _dense_modes(mass: Array, damping: Array, stiffness: Array) -> tuple[Complex
 def _sparse_modes(
     mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
 ) -> tuple[Complex, Complex]:
-    """Shift and invert twice: the second shift, as far from the rigid-body modes as the modes, is accurate."""
+    """Shift and invert twice; the second shift keeps the defective rigid-body modes at a distance."""
     n = mass.shape[0]
     companion = sp.block_array([[None, sp.eye_array(n)], [-stiffness, -damping]], format="csc")
     metric = sp.block_diag([sp.eye_array(n), mass], format="csc")
