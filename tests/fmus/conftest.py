@@ -1,16 +1,13 @@
-"""Fixtures: a cache folder of the tests' own, the spring unit as an FMU, a host for it."""
+"""Fixtures: a cache folder of the tests' own, the built FMUs, hosts for them."""
 
-import sys
 from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parent))  # the spring unit must be a package of its own
-
 from spring_unit.facade import VARIABLES
 
 from fmus import build
 from fmus.recipe import Recipe
+from rotor_fmu.train_file import load_train
 from tests.fmus.host import Host
 
 
@@ -46,6 +43,24 @@ def spring_fmu(tmp_path_factory) -> Path:
 @pytest.fixture(scope="session")
 def spring_host(spring_fmu, tmp_path_factory) -> Host:
     return Host(spring_fmu, tmp_path_factory.mktemp("extracted"))
+
+
+@pytest.fixture(scope="session")
+def small_train():
+    return load_train("small")
+
+
+@pytest.fixture(scope="session")
+def built(tmp_path_factory, small_train) -> dict[str, Path]:
+    """The FMUs of the small train by file name."""
+    return {path.name: path for path in build.build(tmp_path_factory.mktemp("built"), [small_train])}
+
+
+@pytest.fixture(scope="session")
+def hosts(built, tmp_path_factory) -> dict[str, Host]:
+    """The same, extracted."""
+    folder = tmp_path_factory.mktemp("hosts")
+    return {name: Host(path, folder / Path(name).stem) for name, path in built.items()}
 
 
 @pytest.fixture

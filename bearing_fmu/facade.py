@@ -1,0 +1,59 @@
+"""The bearing as an FMU: values in, film, values out.  The one module here that knows FMI."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bearing_fmu.film import Depth, make_film
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.status import FilmStatus
+from fmus import port
+from fmus.failure import UnitError
+from fmus.layout import Layout
+from fmus.slave import UnitSlave
+
+LAYOUT = Layout(port.BEARING)
+_PARAMETERS = LAYOUT.block("diameter", "contact.friction")
+_OFFSET = LAYOUT.block("offset.x", "offset.tilt_y")
+_RESOLUTION = LAYOUT.block("film.columns", "film.rows")
+
+
+class BearingSlave(UnitSlave):
+    """A journal bearing of one depth.
+
+    The film has no memory, so that the values are the whole state.
+
+    Parameters
+    ----------
+    depth : str
+        Modelling depth, a value of `Depth`.
+    **kwargs
+        What pythonfmu passes.
+    """
+
+    def __init__(self, depth: str, **kwargs: Any) -> None:
+        super().__init__(LAYOUT, **kwargs)
+        self._depth = Depth(depth)
+        self._offset = self.values[_OFFSET]
+        self._outputs = self.values[LAYOUT.outputs]
+
+    def prepare(self) -> None:
+        """Make the film of the parameters."""
+        columns, rows = (int(n) for n in self.values[_RESOLUTION])
+        parameters = BearingParameters(*self.values[_PARAMETERS].tolist(), columns, rows)
+        self._film = make_film(self._depth, parameters)
+
+    def start(self) -> None:
+        """Evaluate the film at the inputs."""
+        status = self._film.evaluate(self.inputs, self._offset, self._outputs)
+        if status != FilmStatus.OK:
+            state = ", ".join(
+                f"{v.name} = {x:.9g} {v.unit}"
+                for v, x in zip(port.BEARING_INPUTS, self.inputs, strict=True)
+                if x
+            )
+            raise UnitError(f"{FilmStatus(status).advice}; at {state}")
+
+    def advance(self, time: float, step: float) -> None:
+        """Evaluate the film at the inputs, which are those at the end of the step."""
+        self.start()
