@@ -31,12 +31,15 @@ class AxialBasis:
         dz/dt at the nodes.
     slopes : ndarray, shape (rows + 2, rows)
         Derivative by t of basis function j (column) at node q (row).
+    clustering : float
+        k.
     """
 
     nodes: NDArray[np.float64]
     weights: NDArray[np.float64]
     stretch: NDArray[np.float64]
     slopes: NDArray[np.float64]
+    clustering: float
 
     @property
     def rows(self) -> int:
@@ -50,6 +53,17 @@ class AxialBasis:
     def stiffness_weights(self) -> NDArray[np.float64]:
         """Weights of integrals of products of two z-derivatives, for slopes by t, shape (rows + 2,)."""
         return self.weights / self.stretch**2
+
+    def interpolation(self, z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values of the basis functions (columns) at the points z in [-1, 1] (rows)."""
+        t = np.arctanh(np.asarray(z) * np.tanh(self.clustering)) / self.clustering
+        node = np.arctanh(self.nodes * np.tanh(self.clustering)) / self.clustering
+        values = np.ones((t.size, self.rows))
+        for j in range(self.rows):
+            for k in range(node.size):
+                if k != j:
+                    values[:, j] *= (t - node[k]) / (node[j] - node[k])
+        return values
 
 
 def gauss_lobatto(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -83,4 +97,5 @@ def axial_basis(rows: int, clustering: float = CLUSTERING) -> AxialBasis:
         weights=(weights * stretch)[order],
         stretch=stretch[order],
         slopes=np.ascontiguousarray(slopes[order][:, 1:-1]),
+        clustering=clustering,
     )

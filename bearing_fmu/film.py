@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.aligned import aligned_film
 from bearing_fmu.contact import CONTACT_RESULTS
-from bearing_fmu.evaluate import evaluate_v1
+from bearing_fmu.evaluate import evaluate_v1, evaluate_v2, evaluate_v3
 from bearing_fmu.greenwood_tripp import slice_table
 from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS, scales
 from bearing_fmu.parameters import BearingParameters
@@ -95,12 +96,14 @@ class Film:
         self._data: tuple[Any, ...]
         common = (scales(parameters, aligned=depth is not Depth.V1), slice_table(parameters))
         work = (np.zeros(12), np.zeros(RESULTS), np.zeros(CONTACT_RESULTS))
-        aspect = parameters.diameter / parameters.width
-        if depth is Depth.V1:
-            film = tilted_film(int(parameters.columns), int(parameters.rows), aspect)
-            self._kernel, self._data = evaluate_v1, (*common, film, *work)
-        else:
-            raise NotImplementedError(depth)
+        resolution = int(parameters.columns), int(parameters.rows), parameters.diameter / parameters.width
+        match depth:
+            case Depth.V1:
+                self._kernel, self._data = evaluate_v1, (*common, tilted_film(*resolution), *work)
+            case Depth.V2:
+                self._kernel, self._data = evaluate_v2, (*common, aligned_film(*resolution), *work)
+            case Depth.V3:
+                self._kernel, self._data = evaluate_v3, (*common, np.zeros((8, 4)), *work)
 
     def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
         """Evaluate the port.

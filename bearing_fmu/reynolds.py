@@ -152,32 +152,44 @@ def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
 
 
 @njit(cache=True, nogil=True)
+def summit(p: Floats, count: int) -> float:
+    """Largest pressure on a ring of `count` nodes: the summit of the parabola at the largest value."""
+    at = 0
+    for i in range(count):
+        if p[i] > p[at]:
+            at = i
+    left, right = p[at - 1 if at > 0 else count - 1], p[at + 1 if at + 1 < count else 0]
+    bend = 2.0 * p[at] - left - right
+    rise = (right - left) ** 2 / (8.0 * bend) if bend > 0.0 else 0.0
+    return max(p[at] + rise, 0.0)
+
+
+@njit(cache=True, nogil=True)
 def _peak(film: TiltedFilm, ambient: float) -> float:
-    """Largest pressure: the largest nodal value with the summits of its two parabolas."""
+    """Largest pressure over the film.
+
+    The axial polynomial is sampled between its nodes in the column of the largest nodal value and in
+    its two neighbours; around the circumference the summit of the parabola is taken.
+    """
     n, m = film.face.shape[1], film.circle.shape[2]
-    top, row, column = 0.0, 0, 0
+    top, column = 0.0, 0
     for j in range(n):
         pressure = film.pressures[0, j]
         for i in range(m):
             if pressure[i] > top:
-                top, row, column = pressure[i], j, i
-    if top <= 0.0:
-        return max(ambient, 0.0)
-    pressure = film.pressures[0, row]
-    left = pressure[column - 1 if column > 0 else m - 1]
-    right = pressure[column + 1 if column + 1 < m else 0]
-    rise = (right - left) ** 2 / (8.0 * max(2.0 * top - left - right, 1e-300))
-    below = film.pressures[0, row - 1, column] if row > 0 else 0.0
-    over = film.pressures[0, row + 1, column] if row + 1 < n else 0.0
-    # Newton's divided differences over the unequal distances to the neighbours.
-    z = film.nodes[row]
-    dl = z - (film.nodes[row - 1] if row > 0 else -1.0)
-    dr = (film.nodes[row + 1] if row + 1 < n else 1.0) - z
-    sl, sr = (top - below) / dl, (over - top) / dr
-    slope = (sl * dr + sr * dl) / (dl + dr)
-    curve = 2.0 * (sl - sr) / (dl + dr)
-    rise += slope * slope / (2.0 * max(curve, 1e-300))
-    return max(top + rise + ambient, 0.0)
+                top, column = pressure[i], i
+    back = column - 1 if column > 0 else m - 1
+    fore = column + 1 if column + 1 < m else 0
+    three = film.row[:3]
+    for k in range(film.fine.shape[0]):
+        three[:] = 0.0
+        for j in range(n):
+            value = film.fine[k, j]
+            three[0] += value * film.pressures[0, j, back]
+            three[1] += value * film.pressures[0, j, column]
+            three[2] += value * film.pressures[0, j, fore]
+        top = max(top, summit(three, 3))
+    return max(top + ambient, 0.0)
 
 
 @njit(cache=True, nogil=True)

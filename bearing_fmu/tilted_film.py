@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.axial import axial_basis
+from bearing_fmu.axial import CLUSTERING, axial_basis
 from bearing_fmu.grid import RING_ROWS
 from bearing_fmu.vector import padded
 
@@ -34,6 +34,7 @@ class TiltedFilm(NamedTuple):
     stiffness: Floats  #: (n + 2,) of the axial stiffness, (2R/b)^2 included
     slopes: Floats  #: ((n + 2) n,) derivatives of the basis
     products: Floats  #: ((n + 2) n n',) their outer products
+    fine: Floats  #: (4 n, n) basis between the nodes
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     rings: Floats  #: (2, RING_ROWS, m) columns and faces on the graded grid
     grading: Floats  #: (6, 4) map parameter, its derivative, work space
@@ -63,6 +64,7 @@ def tilted_film(columns: int, rows: int, aspect: float) -> TiltedFilm:
         stiffness=basis.stiffness_weights() * aspect**2,
         slopes=basis.slopes.ravel(),
         products=products.ravel(),
+        fine=basis.interpolation(np.tanh(CLUSTERING * np.linspace(-1, 1, 4 * rows + 2)[1:-1]) / np.tanh(CLUSTERING)),
         circle=circle,
         rings=np.zeros((2, RING_ROWS, columns)),
         grading=np.zeros((6, 4)),
