@@ -62,9 +62,13 @@ class Group:
         """Move the newest outputs along the connections into the inputs of these units."""
         start = perf_counter()
         self._graph.inputs[self._targets] = self._graph.outputs[self._sources]
+        self.push()
+        self.exchange_time += perf_counter() - start
+
+    def push(self) -> None:
+        """Give these units their inputs as they stand in `Graph.inputs`."""
         for call in self._sets:
             call()
-        self.exchange_time += perf_counter() - start
 
     def step(self, time: float, step: float) -> None:
         """Carry out the macro step from `time` in every unit; they are independent of one another.

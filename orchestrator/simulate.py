@@ -6,11 +6,26 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from time import perf_counter
 
+import numpy as np
 import xarray as xr
 
+from orchestrator.assembly import assemble
+from orchestrator.coupling import SCHEMES
+from orchestrator.equilibrium import apply_start, find_start
+from orchestrator.errors import EquilibriumError
+from orchestrator.film_position import evaluate
+from orchestrator.fmu_file import FmuStore
 from orchestrator.outcome import Outcome
+from orchestrator.record import empty_record, make_record
+from orchestrator.recorder import Recorder
+from orchestrator.run import run, step_count
 from orchestrator.scenario import Scenario
+from orchestrator.scenario_file import train_of
+from orchestrator.system import System
+from orchestrator.unit import UnitError
+from rotor_fmu.train import Train
 
 
 class Stage(StrEnum):
@@ -111,4 +126,82 @@ def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -
     PortError
         When an FMU does not carry the port.
     """
-    raise NotImplementedError
+    announce = progress or (lambda _stage, _time: None)
+    train = train_of(scenario)
+    clock = Stopwatch()
+    with FmuStore() as store:
+        announce(Stage.LOAD, 0.0)
+        system = assemble(scenario, train, fmus, store)
+        try:
+            return _simulate(scenario, train, system, clock, announce)
+        finally:
+            system.close()
+
+
+def _simulate(
+    scenario: Scenario, train: Train, system: System, clock: Stopwatch, announce: Progress
+) -> Result:
+    _warm_up(system, train)
+    load = clock.lap()
+    announce(Stage.EQUILIBRIUM, 0.0)
+    try:
+        start = find_start(system, train.bearings, train.speed, train.nodes)
+        apply_start(system, start)
+        for unit in system.units:
+            unit.exit_initialization()
+        for group in system.groups:
+            group.fetch()
+    except (EquilibriumError, UnitError) as error:
+        record = empty_record(scenario, train, Outcome.NO_EQUILIBRIUM, str(error))
+        timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)
+        return Result(record, Outcome.NO_EQUILIBRIUM, str(error), timing, 0, 0)
+    equilibrium = clock.lap()
+    announce(Stage.RUN, 0.0)
+    steps = step_count(scenario.end, scenario.step)
+    stride = max(1, round(scenario.record.interval / scenario.step))
+    recorder = Recorder(system, train.nodes, steps, stride)
+    before = [(group.step_time, group.exchange_time) for group in system.groups]
+    end = run(
+        system,
+        SCHEMES[scenario.coupling],
+        recorder,
+        end=scenario.end,
+        step=scenario.step,
+        on_time=lambda time: announce(Stage.RUN, time),
+    )
+    (rotor, rotor_exchange), (film, film_exchange) = (
+        (group.step_time - earlier[0], group.exchange_time - earlier[1])
+        for group, earlier in zip(system.groups, before, strict=True)
+    )
+    fmi = rotor_exchange + film_exchange
+    rest = end.wall_time - film - rotor - fmi - end.record_time
+    provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+    return Result(
+        make_record(recorder, start, scenario, train, end.outcome, end.message, provenance),
+        end.outcome,
+        end.message,
+        Timing(load, equilibrium, film, rotor, fmi, end.record_time, rest),
+        end.steps,
+        system.bearing_group.evaluations,
+    )
+
+
+def _warm_up(system: System, train: Train) -> None:
+    """Let every unit compute once, so that reductions and compilations count as loading."""
+    positions = np.zeros((len(train.bearings), 4))
+    positions[:, 1] = [-0.5 * seat.clearance for seat in train.bearings]
+    evaluate(system, positions)
+    system.rotor_group.fetch()
+
+
+class Stopwatch:
+    """Wall time from lap to lap."""
+
+    def __init__(self) -> None:
+        self._last = perf_counter()
+
+    def lap(self) -> float:
+        """Return the time since the last lap in s."""
+        now = perf_counter()
+        elapsed, self._last = now - self._last, now
+        return elapsed

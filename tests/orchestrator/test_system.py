@@ -36,13 +36,13 @@ def test_speed_reaches_every_unit(store, toy_fmus):
     system.set_speed(12.0)
     for group in system.groups:
         group.feed()
-    assert [unit.get_real(["speed"])[0] for unit in system.units] == [12.0, 12.0]
+    assert [unit.get_real(["speed"])[0] for unit in system.units] == [12.0, 12.0, 12.0]
     system.close()
 
 
 def test_a_unit_without_the_port_is_described(store, toy_fmus):
     spring = store.open(toy_fmus / "spring_damper.fmu")
-    units = [Unit(spring, "rotor"), Unit(spring, "only")]
+    units = [Unit(spring, "rotor"), Unit(spring, "front")]
     with pytest.raises(PortError) as info:
         System(units[0], units[1:])
     lines = str(info.value).splitlines()
@@ -54,9 +54,12 @@ def test_a_unit_without_the_port_is_described(store, toy_fmus):
 
 def test_a_rotor_with_another_number_of_bearings_is_refused(store, toy_fmus):
     rotor = Unit(store.open(toy_fmus / "two_masses.fmu"), "rotor")
-    bearings = [Unit(store.open(toy_fmus / "spring_damper.fmu"), name) for name in ("front", "rear")]
-    with pytest.raises(PortError, match=r"bearing\[2\]\.journal\.tilt_rate_y is missing \(output, rad/s\)"):
+    spring = store.open(toy_fmus / "spring_damper.fmu")
+    bearings = [Unit(spring, name) for name in ("front", "rear", "third")]
+    with pytest.raises(PortError, match=r"bearing\[3\]\.journal\.tilt_rate_y is missing \(output, rad/s\)"):
         System(rotor, bearings)
+    with pytest.raises(PortError, match="has more than the 1 bearings of the train"):
+        System(rotor, bearings[:1])
     for unit in (rotor, *bearings):
         unit.close()
 

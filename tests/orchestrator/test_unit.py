@@ -16,7 +16,9 @@ def spring(store, toy_fmus):
 
 
 def started(unit, **parameters):
-    unit.set_parameters({"spring.stiffness": 2e6, **parameters})
+    unit.set_parameters(
+        {"spring.stiffness": 2e6, "spring.damping": 1e3, "clearance": 1e3, **parameters}
+    )
     unit.enter_initialization()
     unit.exit_initialization()
     return unit

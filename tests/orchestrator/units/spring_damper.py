@@ -1,4 +1,7 @@
-"""A bearing of the port: F = -k q - c v - k3 |q|^2 q on each translation, k and c also on the tilts."""
+"""A bearing of the port: F = -k q - c v - k3 |q|^2 q on each translation, k and c also on the tilts.
+
+It refuses a step that takes the journal farther than the clearance.
+"""
 
 import numpy as np
 from port_unit import PortUnit
@@ -6,8 +9,8 @@ from port_unit import PortUnit
 from fmus import port
 
 _OWN = (
-    port.Variable("spring.stiffness", "parameter", start=1e6),
-    port.Variable("spring.damping", "parameter", start=1e3),
+    port.Variable("spring.stiffness", "parameter", start=2e7),
+    port.Variable("spring.damping", "parameter", start=2e4),
     port.Variable("spring.cubic", "parameter", start=0.0),
     port.Variable("refuse_after", "parameter", "s", start=1e9),
     port.Variable("break_after", "parameter", "s", start=1e9),
@@ -42,4 +45,6 @@ class SpringDamper(PortUnit):
         if end > self.values["refuse_after"]:
             return self.refuse("100% of the travel is used up")
         self.solve()
+        if not self.values["eccentricity"] < 1.0:
+            return self.refuse("the journal has left its bore")
         return True

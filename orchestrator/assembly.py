@@ -1,0 +1,66 @@
+"""Instantiate the units of a scenario and give them their parameters."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from orchestrator.coupling import SCHEMES
+from orchestrator.errors import FmuError
+from orchestrator.fmu_file import FmuStore
+from orchestrator.parameters import bearing_file, bearing_parameters, rotor_file, rotor_parameters
+from orchestrator.scenario import Scenario
+from orchestrator.system import System
+from orchestrator.unit import Unit, UnitError
+from rotor_fmu.train import Train
+
+
+def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> System:
+    """Make the system of a scenario.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Depths, reduction, unbalance, event, coupling.
+    train : Train
+        Its train.
+    fmus : Path
+        Folder with the FMUs.
+    store : FmuStore
+        Extracts them.
+
+    Returns
+    -------
+    System
+        In Initialization Mode, parameters set.
+
+    Raises
+    ------
+    FmuError
+        When an FMU is missing, cannot be instantiated, or refuses its parameters.
+    PortError
+        When an FMU does not carry the port.
+    """
+    units: list[Unit] = []
+    try:
+        units.append(Unit(store.open(fmus / rotor_file(train)), "rotor"))
+        for seat in train.bearings:
+            file = store.open(fmus / bearing_file(scenario.depth_of(seat.name)))
+            units.append(Unit(file, seat.name))
+        system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
+        system.rotor.set_parameters(rotor_parameters(scenario, train))
+        for unit, seat in zip(system.bearings, train.bearings, strict=True):
+            unit.set_parameters(bearing_parameters(seat, scenario.film))
+        for unit in units:
+            unit.enter_initialization(0.0, scenario.end)
+    except UnitError as error:
+        _close(units)
+        raise FmuError(f"{fmus}: {error}") from None
+    except Exception:
+        _close(units)
+        raise
+    return system
+
+
+def _close(units: list[Unit]) -> None:
+    for unit in units:
+        unit.close()
