@@ -77,7 +77,7 @@ RUN_EPILOG = """\
 [bold]Exit status[/bold]
 
   0    finished, valid             4    a step was refused
-  1    internal error              5    a unit failed
+  1    internal or file error      5    a unit failed
   2    wrong input, no run         6    the motion grew without bound
   3    no static equilibrium       130  interrupted
 
@@ -240,6 +240,9 @@ def _guarded(work: Callable[[], int]) -> None:
     except (OrchestratorError, TrainFileError) as error:
         typer.secho(f"error: {error}", err=True, fg="red")
         status = INPUT_ERROR
+    except OSError as error:
+        typer.secho(f"error: {error}", err=True, fg="red")
+        status = 1
     except KeyboardInterrupt:
         typer.secho("interrupted; nothing was written", err=True, fg="red")
         status = STATUS[Outcome.INTERRUPTED]

@@ -61,6 +61,7 @@ def result_folder(folder: Path) -> Iterator[Path]:
     Path
         The temporary folder; it vanishes when the block raises, and `folder` stays as it was.
     """
+    missing = [path for path in folder.parents if not path.exists()]
     folder.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     try:
@@ -72,6 +73,9 @@ def result_folder(folder: Path) -> Iterator[Path]:
             temporary.rename(folder)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
+        if not folder.exists():
+            for path in missing:
+                path.rmdir()
 
 
 def _replace(fresh: Path, folder: Path) -> None:

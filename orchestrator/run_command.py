@@ -109,9 +109,10 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     return exit_status.of_outcome(result.outcome)
 
 
-def _write(result: Result, summary: RunSummary, scenario: Scenario, train: Train, request: RunRequest,
-           folder: Path) -> None:  # fmt: skip
-    """Write everything that a run leaves behind, all or nothing."""
+def _write(
+    result: Result, summary: RunSummary, scenario: Scenario, train: Train, request: RunRequest, folder: Path
+) -> None:
+    """Write what a run leaves behind: first the data, all or nothing, then the figures likewise."""
     with result_folder(folder) as fresh:
         write_record(result.record, fresh)
         (fresh / "summary.txt").write_text(to_text(summary), encoding="utf-8")
@@ -122,11 +123,8 @@ def _write(result: Result, summary: RunSummary, scenario: Scenario, train: Train
                 f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
             )
             (fresh / PARTIAL).write_text(reason, encoding="utf-8")
-        if request.formats and summary.phases:
+    if request.formats and summary.phases:
+        with result_folder(folder / FIGURES) as fresh:
             write_figures(
-                [result.record],
-                fresh / FIGURES,
-                train=train,
-                bearing=summary.analysed,
-                formats=request.formats,
+                [result.record], fresh, train=train, bearing=summary.analysed, formats=request.formats
             )

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 BAND = 0.012
 """Thickness of a shaft of unknown diameters, as a share of its length."""
-WHEEL_THICKNESS = 0.5
-"""Width of a wheel in the drawing [m]; the train's data know none."""
+WHEEL_THICKNESS = 0.0075
+"""Width of a wheel in the drawing as a share of the train's length; the train's data know none."""
 
 
 def draw_shaft(
@@ -69,7 +69,7 @@ def draw_wheels(axes: Axes, train: Train, line: NDArray[np.float64], shown: floa
     bodies = []
     for wheel in train.wheels:
         if wheel.mean_diameter > 0:
-            half, radius = WHEEL_THICKNESS / 2, wheel.mean_diameter / 2 * shown
+            half, radius = WHEEL_THICKNESS * z[-1] / 2, wheel.mean_diameter / 2 * shown
             left, right, middle = z[wheel.node] - half, z[wheel.node] + half, line[wheel.node]
             bodies.append(
                 [

@@ -124,6 +124,18 @@ def record(
         "normal_stress_max": (("time",), stress.max(axis=1)),
         "normal_stress_position": (("time",), z[stress.argmax(axis=1)]),
     }
+    units = {
+        "force": "N",
+        "moment": "N m",
+        "contact_force": "N",
+        "defect_max": "N",
+        "sommerfeld": "1",
+        "stress": "Pa",
+    }
+    variables = {
+        name: (dims, values, {"units": units.get(name, "m"), "long_name": name.replace("_", " ")})
+        for name, (dims, values) in variables.items()
+    }
     attributes: dict[str, object] = {
         "title": "synthetic",
         "coupling": "linear-implicit",

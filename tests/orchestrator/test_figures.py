@@ -8,7 +8,8 @@ from matplotlib.collections import PolyCollection
 
 from orchestrator import quantities, statistics
 from orchestrator.figures import panels, style
-from orchestrator.figures.deformed_train import deformed_train, static_line, worst_instant
+from orchestrator.figures.deformation import dynamic_deflection, worst_instant
+from orchestrator.figures.deformed_train import deformed_train
 from orchestrator.figures.forces_and_moments import forces_and_moments
 from orchestrator.figures.least_gap import least_gap
 from orchestrator.figures.normal_stress import normal_stress
@@ -180,7 +181,7 @@ def test_deformed_train_is_drawn_at_its_scale(record, train):
         c for c in vertical.collections if isinstance(c, PolyCollection) and c.get_array() is not None
     )
     assert len(shaft.get_paths()) == len(train.shoulders)
-    deflection = (record["deflection"].isel(time=index).values - static_line(record))[:, 1] * 1e3
+    deflection = dynamic_deflection(record, index)[:, 1] * 1e3
     scale = float(vertical.get_title(loc="left").rsplit("× ", 1)[1])
     for k in (0, 100, 277):
         corners = shaft.get_paths()[k].vertices
