@@ -12,9 +12,13 @@ from fmus.archive import guid_in, write_archive
 from fmus.sources import source_files
 from tests.fmus.conftest import spring_recipe
 
+BUILT = ("rotor_small.fmu", "bearing_v1.fmu", "bearing_v2.fmu", "bearing_v3.fmu")
 
-def test_fmpy_finds_no_problem(spring_fmu):
-    assert validate_fmu(str(spring_fmu)) == []
+
+@pytest.mark.parametrize("name", BUILT)
+def test_fmpy_finds_no_problem(built, name):
+    """Schema, names, units, causalities and model structure."""
+    assert validate_fmu(str(built[name])) == []
 
 
 def fmutool_report(fmu) -> str:
@@ -26,14 +30,28 @@ def fmutool_report(fmu) -> str:
     return done.stdout + done.stderr
 
 
-def test_fmutool_finds_no_problem(spring_fmu):
-    report = fmutool_report(spring_fmu)
+@pytest.mark.parametrize("name", ("rotor_small.fmu", "bearing_v1.fmu"))
+def test_fmutool_finds_no_problem(built, name):
+    report = fmutool_report(built[name])
     assert "compliant" in report and "No semantic error" in report
 
 
 def test_two_builds_are_the_same_to_the_byte(spring_fmu, tmp_path):
     again = build.write(spring_recipe(), tmp_path)
     assert again.read_bytes() == spring_fmu.read_bytes()
+
+
+def test_two_builds_of_a_rotor_are_the_same_to_the_byte(built, small_train, tmp_path):
+    (again,) = build.build(tmp_path, [small_train], depths=())
+    assert again.read_bytes() == built["rotor_small.fmu"].read_bytes()
+
+
+def test_refresh_builds_what_is_missing_or_stale_only(built, tmp_path):
+    names = [path.name for path in build.refresh(tmp_path, depths=("v1", "v3"))]
+    assert names == ["bearing_v1.fmu", "bearing_v3.fmu"]
+    (tmp_path / "bearing_v3.fmu").write_bytes(b"damaged")
+    assert build.refresh(tmp_path, depths=("v1", "v3")) == [tmp_path / "bearing_v3.fmu"]
+    assert build.refresh(tmp_path, depths=("v1", "v3")) == []
 
 
 def test_a_date_appears_if_it_is_prescribed(tmp_path, monkeypatch):
