@@ -76,4 +76,5 @@ def test_twenty_cycles_of_load_and_free(built, tmp_path):
         instance = Host(built["bearing_v3.fmu"], tmp_path / str(cycle)).open().start()
         assert instance.step(0.0, H)
         instance.close()
-        gc.collect()
+        if cycle % 5 == 0:
+            gc.collect()
