@@ -107,9 +107,9 @@ def element_matrices(shoulders: Sequence[Shoulder]) -> ElementMatrices:
     ).transpose(2, 0, 1)
 
     deflection, rotation = shape_functions(L, phi, _XI)
-    translational = np.einsum("e,p,epi,epj->eij", rho * A * L, _DXI, deflection, deflection)
-    rotary = np.einsum("e,p,epi,epj->eij", rho * second_moment * L, _DXI, rotation, rotation)
-    weight = np.einsum("e,p,epi->ei", rho * A * L, _DXI, deflection)
+    translational = (rho * A * L)[:, None, None] * _gram(deflection)
+    rotary = (rho * second_moment * L)[:, None, None] * _gram(rotation)
+    weight = (rho * A * L)[:, None] * np.einsum("p,epi->ei", _DXI, deflection)
     # Polar inertia of a circular section is twice the diametral one.
     return ElementMatrices(stiffness, translational + rotary, 2.0 * rotary, weight)
 
@@ -150,3 +150,9 @@ def shape_functions(length: Array, phi: Array, xi: Array) -> tuple[Array, Array]
         axis=-1,
     )
     return deflection / (1.0 + s[..., None]), rotation / (1.0 + s[..., None])
+
+
+def _gram(shapes: Array) -> Array:
+    """Integral over xi of the products of shape functions, symmetric to the last bit, (e, 4, 4)."""
+    weighted = shapes * np.sqrt(_DXI)[:, None]
+    return np.einsum("epi,epj->eij", weighted, weighted)

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Method = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 METHODS: tuple[str, ...] = get_args(Method)
 
-DEFAULT_SIZE = 128
+DEFAULT_SIZE = 160
 """Reduced degrees of freedom, both planes."""
 
 IRS_MODES = 16
