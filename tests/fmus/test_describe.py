@@ -1,0 +1,27 @@
+"""The README for users of other tools lists the port as it is."""
+
+import re
+
+from fmus import describe, port
+
+
+def test_the_tables_of_the_readme_match_the_port():
+    text = describe.README.read_text(encoding="utf-8")
+    assert describe.with_tables(text) == text, "run python -m fmus.describe"
+
+
+def test_every_variable_stands_in_the_tables(small_train):
+    text = describe.README.read_text(encoding="utf-8")
+    names = [b.name for b in small_train.bearings], [w.name for w in small_train.wheels]
+    indices = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c"}
+    for variable in (*port.BEARING, *port.rotor(*names, small_train.nodes)):
+        name = re.sub(r"(\w+)\[[\d,]+\]", lambda m: f"{m[1]}[{indices[m[1]]}]", variable.name)
+        assert f"| `{name}` | {variable.causality} |" in text
+
+
+def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
+    bare = {"eccentricity", "sommerfeld", "contact.friction"}
+    for variable in (*port.BEARING, *port.rotor(["b"], ["w"], 2)):
+        assert variable.description
+        if variable.kind == "Real" and not variable.unit:
+            assert variable.name in bare
