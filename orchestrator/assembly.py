@@ -50,6 +50,7 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> S
         system.rotor.set_parameters(rotor_parameters(scenario, train))
         for unit, seat in zip(system.bearings, train.bearings, strict=True):
             unit.set_parameters(bearing_parameters(seat, scenario.film))
+        system.set_speed(train.speed)
         for unit in units:
             unit.enter_initialization(0.0, scenario.end)
     except UnitError as error:

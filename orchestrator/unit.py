@@ -74,16 +74,15 @@ class Block:
     def __init__(self, unit: Unit, names: Sequence[str], values: NDArray[np.float64]) -> None:
         if values.shape != (len(names),) or values.dtype != np.float64 or not values.flags.c_contiguous:
             raise ValueError(f"a block of {len(names)} values needs as many contiguous float64")
-        self._references = np.array([unit.variable(name).valueReference for name in names], dtype=np.uint32)
-        self._values = values  # keeps the memory alive
+        references = np.array([unit.variable(name).valueReference for name in names], dtype=np.uint32)
         arguments = (
             unit.component,
-            ctypes.c_void_p(self._references.ctypes.data),
+            ctypes.c_void_p(references.ctypes.data),
             ctypes.c_size_t(len(names)),
             ctypes.c_void_p(values.ctypes.data),
         )
-        self.get = unit.prepare("fmi2GetReal", arguments)
-        self.set = unit.prepare("fmi2SetReal", arguments)
+        self.get = unit.prepare("fmi2GetReal", arguments, (references, values))
+        self.set = unit.prepare("fmi2SetReal", arguments, (references, values))
 
 
 class Unit:
@@ -160,12 +159,15 @@ class Unit:
         except KeyError:
             raise PortError(f"{self.file.path}: {self.name} has no variable {name!r}") from None
 
-    def prepare(self, function: str, arguments: tuple[Any, ...]) -> Callable[[], None]:
-        """Bind a C function to fixed arguments; the call raises `UnitError` unless it ends with OK."""
+    def prepare(self, function: str, arguments: tuple[Any, ...], memory: object) -> Callable[[], None]:
+        """Bind a C function to fixed arguments; the call raises `UnitError` unless it ends with OK.
+
+        The call keeps `memory`, to which the arguments point, alive.
+        """
         call = self._library[function]
         call.restype = ctypes.c_int
 
-        def run() -> None:
+        def run(_alive: object = memory) -> None:
             status = call(*arguments)
             if status:
                 self._fail(function, status)

@@ -41,6 +41,15 @@ def test_blocks_move_values_between_unit_and_array(spring):
     assert not taken.any()
 
 
+def test_a_bound_call_outlives_its_block(spring):
+    """The call alone keeps the arrays that it points to."""
+    started(spring)
+    get = Block(spring, [*port.FORCE, *port.K], np.empty(20)).get
+    junk = [np.full(n, 7, dtype=np.uint32) for n in (4, 20, 20, 40)]
+    get()
+    del junk
+
+
 def test_block_refuses_an_array_that_it_cannot_address(spring):
     with pytest.raises(ValueError, match="contiguous"):
         Block(spring, port.FORCE, np.zeros(8)[::2])
