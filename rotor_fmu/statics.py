@@ -48,8 +48,9 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
     for r, (first, last) in enumerate(train.sections):
         force, moment = 2 * r, 2 * r + 1
         origin = z[first]
+        rear = last + 1 if r == len(train.sections) - 1 else last
         for i, seat in enumerate(seats):
-            if first < seat.node < last:
+            if first <= seat.node < rear:
                 arm = (z[seat.node] - origin) / span
                 if i in free:
                     supports[[force, moment], free.index(i)] = 1.0, arm

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import typing
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any
@@ -136,8 +137,11 @@ def explain(error: ValidationError, raw: Mapping[str, Any], model: type[BaseMode
         elif kind == "missing":
             yield f"{where}{key}: missing; it must be given"
         else:
-            text = _ALLOWED.get(kind, problem["msg"])
-            yield f"{where}{key} = {problem['input']!r}; allowed is {text.format(**context)}"
+            value = problem["input"]
+            if isinstance(value, float) and not math.isfinite(value):
+                kind = "finite_number"
+            text = _ALLOWED.get(kind, problem["msg"]).format(**context)
+            yield f"{where}{key} = {value!r}; allowed is {text}"
 
 
 _ALLOWED = {

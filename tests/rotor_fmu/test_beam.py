@@ -26,10 +26,10 @@ def elastic_frequencies(train, count):
     return np.sqrt(squared[2 : 2 + count]) / (2.0 * math.pi)
 
 
-@pytest.mark.parametrize(("elements", "error"), [(10, 1.186e-3), (40, 7.43e-5)])
-def test_first_free_frequency_has_the_known_error(elements, error):
+@pytest.mark.parametrize(("elements", "error", "digits"), [(10, 1.186e-3, 3), (40, 7.43e-5, 2)])
+def test_first_free_frequency_has_the_known_error(elements, error, digits):
     (frequency,) = elastic_frequencies(uniform_shaft(6.0, 1.2, elements, STEEL), 1)
-    assert frequency / HUANG[0] - 1.0 == pytest.approx(error, abs=10.0 ** (math.floor(math.log10(error)) - 3) * 5)
+    assert f"{frequency / HUANG[0] - 1.0:.{digits}e}" == f"{error:.{digits}e}"
 
 
 def test_free_frequencies_converge_to_huang_with_the_square_of_the_length():
@@ -100,7 +100,8 @@ class TestAssembly:
         assert np.abs(model.plane_stiffness @ ones).max() < 1e-12 * scale
         assert np.abs(model.plane_stiffness @ tilt).max() < 1e-12 * scale * train.length
         assert ones @ model.plane_mass @ ones == pytest.approx(train.mass, rel=1e-12)
-        centre = sum(s.mass * (a + b) / 2 for s, a, b in zip(train.shoulders, train.z, train.z[1:], strict=False))
+        z = train.z
+        centre = sum(s.mass * (z[k] + z[k + 1]) / 2 for k, s in enumerate(train.shoulders))
         centre += sum(w.mass * train.z[w.node] for w in train.wheels)
         assert ones @ model.plane_mass @ tilt == pytest.approx(centre, rel=1e-12)
         polar = sum(
@@ -132,7 +133,8 @@ class TestAssembly:
 
 def test_gyroscopic_moments_of_a_disc():
     """The spin's angular momentum is Ip W (tilt_y, -tilt_x): its rate needs these moments."""
-    train = replace(uniform_shaft(1.0, 0.1, 1, replace(STEEL, density=1e-9)), wheels=(Wheel("w", 1, 5.0, 0.8, 0.5),))
+    disc = Wheel("w", 1, 5.0, 0.8, 0.5)
+    train = replace(uniform_shaft(1.0, 0.1, 1, replace(STEEL, density=1e-9)), wheels=(disc,))
     G = assemble(train).G.toarray()
     tilt_x, tilt_y = 6, 7
     assert G[tilt_x, tilt_y] == pytest.approx(0.8)
