@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -147,12 +146,14 @@ class WorkLedger:
         """
         (t, H), (angle, speed), (w0, w1) = interval, rotation, wrenches
         inside = fracture - t if t < fracture < t + H else None
-        cuts = [0.0, H] if inside is None else [0.0, inside, H]
+        pieces = [(0.0, H, fracture <= t)]
+        if inside is not None:
+            pieces = [(0.0, inside, False), (inside, H, True)]
         x, total = state, np.zeros(3)
-        for a, b in pairwise(cuts):
+        for a, b, is_broken in pieces:
             theta = angle + speed * a
             turn = np.array([math.cos(theta), math.sin(theta)])
-            broken = turn if fracture <= t + a or a == inside else 0.0 * turn
+            broken = turn if is_broken else 0.0 * turn
             start = w0 + (w1 - w0) * (a / H)
             z = np.concatenate([x, start, (w1 - w0) * ((b - a) / H), turn, broken])
             piece = self._maps(speed, b - a, t + b)
