@@ -61,7 +61,7 @@ def cantilever_history(cantilever):
 
 
 class TestEulerBernoulliCantilever:
-    """L = EI = rho A = 1, ten elements, masters every second deflection; independently computed figures [rad/s]."""
+    """L = EI = rho A = 1, ten elements, masters every second deflection; independent figures [rad/s]."""
 
     FULL = (3.516018, 22.035221, 61.712923, 121.01713, 200.363329)
     GUYAN = (3.516114, 22.057338, 62.218025, 124.725017, 205.277265)
