@@ -54,16 +54,16 @@ def test_reaction_of_the_weight_on_one_plane():
 
 @pytest.fixture(scope="module")
 def reports():
-    """Of the turbine on bearings of equal stiffness and damping, at and around its speed."""
+    """Of the turbine on bearings of equal stiffness and damping, at its speed."""
     train = load_train("turbine")
     model = assemble(train)
     bearings = springs(2e9, 4e9, 5e6, 1e7, count=11)
     phases = np.array([w.unbalance_phase for w in train.wheels])
     unbalance = np.array(train.nominal_unbalance) * np.exp(1j * phases)
-    speeds = [2.0 * math.pi * f for f in (10.0, 25.0)]
+    speeds = [50.0 * math.pi]
     return {
-        method: reduction_report(model, reduce(model, method), bearings, speeds, unbalance)
-        for method in ("irs", "irs-plain", "guyan", "craig-bampton")
+        method: reduction_report(model, reduce(model, method), bearings, speeds, unbalance, count=12)
+        for method in ("irs", "irs-plain")
     }
 
 
@@ -99,4 +99,4 @@ def test_report_as_text(reports):
     lines = str(reports["irs"]).splitlines()
     assert lines[0].startswith("irs, 160 degrees of freedom, ")
     assert lines[1].startswith("static bearing forces: ")
-    assert len(lines) == 5
+    assert len(lines) == 4
