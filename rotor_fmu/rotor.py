@@ -10,15 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu import initial_state
 from rotor_fmu.affine_step import AffineStep
-from rotor_fmu.assembly import ShaftModel, assemble
 from rotor_fmu.condensation import Equilibrium, condense_static
 from rotor_fmu.energy import Energy, EnergyMeter
 from rotor_fmu.fields import Extremes, FieldMap, NodeFields
 from rotor_fmu.map_cache import MapCache
-from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.reduction import Method, ReducedShaft, reduce
+from rotor_fmu.prepared_shaft import PreparedShaft, prepare_shaft
+from rotor_fmu.reduction import Method
 from rotor_fmu.rotor_state import RotorState
-from rotor_fmu.stress import BendingStress, bending_stress
 from rotor_fmu.train import Train
 from rotor_fmu.unbalance import Unbalance
 from rotor_fmu.work import Work, WorkLedger
@@ -75,44 +73,32 @@ class Rotor:
         excitation = Unbalance.of_train(
             train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
         )
-        model = assemble(train)
         start_speed = train.speed if speed is None else speed
-        reduced, bending = reduce(model, reduction), bending_stress(train)
-        self._set_up(model, reduced, bending, excitation, gravity, start_speed, track_work)
+        self._set_up(prepare_shaft(train, reduction), excitation, gravity, start_speed, track_work)
 
     @classmethod
-    def of_matrices(
+    def of_shaft(
         cls,
-        model: ShaftModel,
-        reduced: ReducedShaft,
-        bending: BendingStress,
+        shaft: PreparedShaft,
         unbalance: Unbalance,
         *,
         gravity: float,
         speed: float,
         track_work: bool = False,
     ) -> Rotor:
-        """A rotor of given matrices instead of a train; see the class."""
+        """A rotor of a given shaft instead of a train; see the class."""
         rotor = cls.__new__(cls)
-        rotor._set_up(model, reduced, bending, unbalance, gravity, speed, track_work)
+        rotor._set_up(shaft, unbalance, gravity, speed, track_work)
         return rotor
 
     def _set_up(
-        self,
-        model: ShaftModel,
-        reduced: ReducedShaft,
-        bending: BendingStress,
-        unbalance: Unbalance,
-        gravity: float,
-        speed: float,
-        track_work: bool,
+        self, shaft: PreparedShaft, unbalance: Unbalance, gravity: float, speed: float, track_work: bool
     ) -> None:
-        self.model, self.reduced, self.unbalance = model, reduced, unbalance
-        self._speed = speed
-        self.shaft = to_modal(reduced)
+        model = self.model = shaft.model
+        self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
         self._maps = MapCache(model, self.shaft, unbalance)
         self._stepper = AffineStep(self.shaft)
-        self._fields = FieldMap(self.shaft, bending, model.z, gravity)
+        self._fields = FieldMap(self.shaft, shaft.bending, model.z, gravity)
         self._energy = EnergyMeter(model, self.shaft, gravity)
         self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
         self._condensed = condense_static(model, gravity)

@@ -8,6 +8,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from rotor_fmu.assembly import ShaftModel
+from rotor_fmu.modal_shaft import to_modal
+from rotor_fmu.prepared_shaft import PreparedShaft
 from rotor_fmu.reduction import ReducedShaft
 from rotor_fmu.rotor import Rotor
 from rotor_fmu.stress import BendingStress
@@ -39,9 +41,8 @@ def matrix_rotor(model, reduced, excitation, *, gravity, speed, track_work=False
     """A rotor of matrices; they do not tell of bending moments, which here are none."""
     n = model.size
     bending = BendingStress(sp.csr_array((n, n)), np.zeros(n), np.ones((2, n // 4)))
-    return Rotor.of_matrices(
-        model, reduced, bending, excitation, gravity=gravity, speed=speed, track_work=track_work
-    )
+    shaft = PreparedShaft(model, reduced, to_modal(reduced), bending)
+    return Rotor.of_shaft(shaft, excitation, gravity=gravity, speed=speed, track_work=track_work)
 
 
 def gyroscopic(seed=1, nodes=3):

@@ -209,3 +209,20 @@ def test_bytes_that_are_not_a_state_are_refused(spoil):
 def test_a_state_of_another_shaft_is_refused(train):
     with pytest.raises(ValueError, match="allowed are"):
         Rotor(train).set_state(small_rotor().get_state())
+
+
+def test_rotors_of_one_train_share_the_shaft_but_nothing_that_changes(train):
+    alone, other = Rotor(train), Rotor(train, unbalance=np.full(len(train.wheels), 0.1), gravity=0.0)
+    assert alone.shaft is other.shaft
+    law = springs(alone)
+    alone.start_from_law(*law, orbit=True)
+    start = alone.get_state()
+    run(alone, law, 1e-4, 5, speed=train.speed)
+    expected = alone.get_state().to_bytes()
+    alone.set_state(start)
+    other.start_from_law(*law, orbit=True)
+    for k in range(5):
+        for rotor in (alone, other):
+            rotor.step(k * 1e-4, 1e-4, *law, train.speed)
+    assert alone.get_state().to_bytes() == expected
+    assert other.get_state().to_bytes() != expected
