@@ -48,9 +48,8 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
     for r, (first, last) in enumerate(train.sections):
         force, moment = 2 * r, 2 * r + 1
         origin = z[first]
-        rear = last + 1 if r == len(train.sections) - 1 else last
         for i, seat in enumerate(seats):
-            if first <= seat.node < rear:
+            if train.section_of(seat.node) == r:
                 arm = (z[seat.node] - origin) / span
                 if i in free:
                     supports[[force, moment], free.index(i)] = 1.0, arm
@@ -79,10 +78,9 @@ def _section_weights(train: Train, gravity: float) -> Array:
     z = np.array(train.z)
     result = []
     for r, (first, last) in enumerate(train.sections):
-        rear = train.nodes if r == len(train.sections) - 1 else last
         parts = [
             (s.mass, (z[k] + z[k + 1]) / 2.0) for k, s in enumerate(train.shoulders) if first <= k < last
-        ] + [(w.mass, z[w.node]) for w in train.wheels if first <= w.node < rear]
+        ] + [(w.mass, z[w.node]) for w in train.wheels if train.section_of(w.node) == r]
         mass, position = np.array(parts).T
         result += [gravity * mass.sum(), gravity * (mass @ (position - z[first])) / train.length]
     return np.array(result)

@@ -97,7 +97,7 @@ class Wheel:
     mean_diameter : float
         Mean diameter of the blading, or of the body [m]; for drawings and reports.
     balance_factor : float
-        Nominal unbalance as a multiple of what the train's balance grade allows for `mass`.
+        Nominal unbalance as a multiple of this wheel's share in what the balance grade permits its rotor.
     unbalance_phase : float
         Angle of the nominal unbalance at t = 0, from x to y [rad].
     """
@@ -218,16 +218,42 @@ class Train:
         return math.fsum(s.mass for s in self.shoulders) + math.fsum(w.mass for w in self.wheels)
 
     @property
-    def nominal_unbalance(self) -> tuple[float, ...]:
-        """Nominal unbalance of each wheel [kg m]: balance_factor (balance_grade / speed) mass."""
-        eccentricity = self.balance_grade / self.speed
-        return tuple(w.balance_factor * eccentricity * w.mass for w in self.wheels)
-
-    @property
     def sections(self) -> tuple[tuple[int, int], ...]:
         """First and last node of each rotor between couplings, front to rear."""
         cuts = [0, *(c.node for c in self.couplings), self.nodes - 1]
         return tuple(pairwise(cuts))
+
+    def section_of(self, node: int) -> int:
+        """Index of the rotor that a node belongs to; a coupling's node belongs to the rotor behind it."""
+        return sum(c.node <= node for c in self.couplings)
+
+    @property
+    def section_masses(self) -> tuple[float, ...]:
+        """Mass of each rotor between couplings, shaft and wheels [kg]."""
+        parts: list[list[float]] = [[] for _ in self.sections]
+        for k, shoulder in enumerate(self.shoulders):
+            parts[self.section_of(k)].append(shoulder.mass)
+        for wheel in self.wheels:
+            parts[self.section_of(wheel.node)].append(wheel.mass)
+        return tuple(math.fsum(masses) for masses in parts)
+
+    @property
+    def nominal_unbalance(self) -> tuple[float, ...]:
+        """Nominal unbalance of each wheel [kg m].
+
+        The balance grade permits a rotor of mass m the unbalance (balance_grade / speed) m (ISO 21940-11);
+        the wheels of a rotor share it by their masses, each times its balance_factor.
+        """
+        eccentricity = self.balance_grade / self.speed
+        at = [self.section_of(w.node) for w in self.wheels]
+        carried = [0.0] * len(self.sections)
+        for wheel, section in zip(self.wheels, at, strict=True):
+            carried[section] += wheel.mass
+        masses = self.section_masses
+        return tuple(
+            w.balance_factor * eccentricity * masses[s] * w.mass / carried[s]
+            for w, s in zip(self.wheels, at, strict=True)
+        )
 
     def to_json(self) -> str:
         """Write as JSON; floats survive the round trip bit by bit."""
