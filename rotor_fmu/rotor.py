@@ -44,7 +44,8 @@ class Rotor:
     fracture_time : float
         Instant of the fracture [s].
     track_work : bool
-        Keep account of the works, at two to three times the cost of a step.
+        Keep account of the works, at two to three times the cost of a step and some seconds for the
+        first step of each size (minutes for the unreduced shaft).
 
     Notes
     -----
