@@ -11,10 +11,10 @@ they are computed on get after a set.  From then on they change in ``do_step`` o
 Failure
 -------
 No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it.  A bad
-parameter or a failed start is kept: the outputs are NaN, and every ``do_step``
-returns ``fmi2Discard`` with the reason in the log.  A failed step is ``fmi2Discard``,
-too; it leaves the unit as it was and may be repeated with other inputs or a
-smaller step.
+parameter or a failed start is logged and kept: the outputs are NaN, and every
+``do_step`` returns ``fmi2Discard`` with the reason in the log.  A failed step is
+``fmi2Discard``, too; it leaves the unit as it was and may be repeated with other
+inputs or a smaller step.
 """
 
 from __future__ import annotations
@@ -116,8 +116,6 @@ class UnitSlave(Fmi2Slave):
         """Freeze the start: from here on outputs change in `do_step` only."""
         self._solve()
         self._mode = STEP
-        if self._failure:
-            self._report(f"start failed: {self._failure}", Fmi2Status.error)
 
     def terminate(self) -> None:
         """End the simulation."""
@@ -155,6 +153,7 @@ class UnitSlave(Fmi2Slave):
         self._unsolved = False
         self._stale = set(self.layout.lazy)
         if self._failure:
+            self._report(f"no start: {self._failure}", Fmi2Status.warning)
             self.values[self.layout.outputs] = math.nan
             if self._prepared_for is None:
                 self.values[list(self.layout.computed)] = math.nan
@@ -227,6 +226,7 @@ class UnitSlave(Fmi2Slave):
             names = [v.name for i, v in enumerate(self.layout.variables) if i in set(vrs)]
             when = "after initialization" if self._mode == STEP else "at all, or not with this type"
             self._misuse = self._misuse or f"{', '.join(names[:3]) or vrs} cannot be set {when}"
+            self._report(self._misuse, Fmi2Status.error)
         return allowed
 
     def _update(self, vrs: list[int]) -> None:
