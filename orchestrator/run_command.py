@@ -103,10 +103,12 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
         console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
         if request.formats and summary.phases:
             console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
+    status = exit_status.of_outcome(result.outcome)
     if not result.outcome.ok:
-        errors.print(f"[red]not finished[/red] ({summary.outcome}): {summary.message or summary.advice}",
-                     highlight=False, soft_wrap=True)  # fmt: skip
-    return exit_status.of_outcome(result.outcome)
+        errors.print(
+            f"[red]error:[/red] not finished: {summary.outcome} (exit status {status})", highlight=False
+        )
+    return status
 
 
 def _write(

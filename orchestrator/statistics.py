@@ -66,7 +66,7 @@ class BearingStatistics:
     contact_first : float or None
         First instant of solid contact in the phase, None when there is none.
     contact_share : float
-        Share of the time (of the window of the means) with solid contact, 0 to 1.
+        Share of the phase's time with solid contact, 0 to 1.
     contact_max : float
         Largest solid contact force.
     sommerfeld_mean : float
@@ -118,6 +118,7 @@ def bearing_statistics(
     """
     time = np.asarray(record["time"].values, dtype=float)
     mean, peak = phase.mean.mask(time), phase.peak.mask(time)
+    span = phase.span.mask(time)
     peak_interval, span_interval = phase.peak.interval_mask(time), phase.span.interval_mask(time)
     force, moment = magnitude(record, "force", bearing), magnitude(record, "moment", bearing)
     gap, centre = series(record, "least_gap", bearing), series(record, "centre_line_gap", bearing)
@@ -149,7 +150,7 @@ def bearing_statistics(
         centre_line_gap_mean=mean_of(centre),
         centre_line_gap_min=smallest("centre_line_gap_min", centre),
         contact_first=float(time[np.argmax(touching)]) if touching.any() else None,
-        contact_share=mean_of((contact > contact_from).astype(float)),
+        contact_share=time_mean(time[span], (contact > contact_from)[span].astype(float)),
         contact_max=largest("contact_force_max", contact),
         sommerfeld_mean=mean_of(series(record, "sommerfeld", bearing)),
     )

@@ -52,6 +52,10 @@ def _shaft_text(summary: RunSummary) -> Iterable[tuple[str, str]]:
         )
 
 
+def _force_text(value: float) -> str:
+    return FORCE.fitting(value).fitting(value).text(value)
+
+
 def _facts(summary: RunSummary) -> Table:
     timing = summary.timing
     rate = f", {summary.simulated / timing.loop:.3g} s a second" if timing.loop > 0 else ""
@@ -75,14 +79,13 @@ def _facts(summary: RunSummary) -> Table:
     ]
     if summary.defect is not None:
         largest = max((row.force_max for row in summary.bearings), default=0.0)
-        unit = FORCE.fitting(summary.defect.largest).fitting(summary.defect.largest)
         share = (
             f" ({100 * summary.defect.largest / largest:.2g} % of the largest force)" if largest > 0 else ""
         )
         rows.append(
             (
                 "defect",
-                f"median {unit.number(summary.defect.median)}, largest {unit.text(summary.defect.largest)}"
+                f"median {_force_text(summary.defect.median)}, largest {_force_text(summary.defect.largest)}"
                 f"{share} at {summary.defect.bearing}, {summary.defect.time:.4f} s",
             )
         )
@@ -168,8 +171,8 @@ class SummaryTable:
         if summary.analysed is not None:
             yield Text(
                 f"Analysed bearing: {summary.analysed}. Harmonic part: half peak-to-peak. Contact counts "
-                f"from {100 * CONTACT_SHARE:g} % of the force before the event, its share of the time where "
-                "the means are taken.",
+                f"from {100 * CONTACT_SHARE:g} % of the force before the event; its share of time covers "
+                "the whole phase.",
                 style="dim",
             )
 

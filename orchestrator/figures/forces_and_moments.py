@@ -106,7 +106,7 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
             panels.draw_curve(grid[row, -1], near, _curve(record, name, bearing), quantity)
             panels.draw_event(grid[row, column], whole, record)
         panels.draw_event(grid[row, -1], near, records[0], named=False)
-        panels.room_above(list(grid[row]))
+        panels.scale_panels(list(grid[row]))
         grid[row, 0].set_ylabel(quantity.axis)
         for column, axes in enumerate(grid[row]):
             style.dress(axes)

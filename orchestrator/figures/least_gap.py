@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+CEILING = 1.5
+"""Upper end of close-ups of gaps, in terms of the largest gap before the event."""
+
 
 def _curves(record: xr.Dataset, bearing: str) -> list[panels.Curve]:
     """Least gap of the centre line, where it differs, and of the whole film."""
@@ -56,6 +59,21 @@ def draw_contact(
         )
 
 
+def gap_ceiling(records: Sequence[xr.Dataset], bearings: Sequence[str], names: Sequence[str]) -> float | None:
+    """Largest gap worth showing near the surfaces, in µm: `CEILING` times the gaps before the event."""
+    largest = 0.0
+    for record in records:
+        found = phases(record)
+        if len(found) == 1:
+            return None
+        inside = found[0].mean.mask(record["time"].values)
+        for bearing in bearings:
+            largest = max(
+                largest, *(statistics.series(record, name, bearing)[inside].max() for name in names)
+            )
+    return CEILING * largest * quantities.GAP.factor
+
+
 def _title(record: xr.Dataset, bearing: str) -> str:
     found = phases(record)
     threshold = statistics.contact_threshold(record, bearing, found)
@@ -68,9 +86,10 @@ def _title(record: xr.Dataset, bearing: str) -> str:
             f" least {quantities.GAP.text(figures.least_gap_min)}"
         )
         if figures.contact_first is not None:
-            text += f", contact {100 * figures.contact_share:.0f} % of the time"
+            share = f"{100 * figures.contact_share:.0f} % of the time"
+            text += f", contact from {figures.contact_first:.3f} s, {share}"
         parts.append(text)
-    return "   |   ".join(parts)
+    return "\n".join(parts)
 
 
 def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure:
@@ -86,18 +105,18 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
     Returns
     -------
     matplotlib.figure.Figure
-        Left the whole time, right a few revolutions around the event; a strip along the
-        bottom marks solid contact.
+        Left the whole time, right a few revolutions around the event, near the surfaces; a
+        strip along the bottom marks solid contact.
     """
     bearing = bearing or statistics.analysed_bearing(records[0])
     rows = len(records)
     figure = style.new_figure(
         12.0,
-        1.6 + 2.9 * rows,
+        1.6 + 3.0 * rows,
         f"Least gap, {bearing}",
         style.run_caption(records[0]) if rows == 1 else str(records[0].attrs.get("title", "")),
     )
-    grid = figure.subplots(rows, 2, sharey=True, sharex="col", squeeze=False, width_ratios=[1.5, 1.0])
+    grid = figure.subplots(rows, 2, sharey="col", sharex="col", squeeze=False, width_ratios=[1.5, 1.0])
     views = (panels.whole_run(records), panels.close_up(records))
     for row, record in enumerate(records):
         for column, view in enumerate(views):
@@ -114,6 +133,9 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
             loc="left",
             fontsize=style.FONT - 0.5,
         )
-    panels.room_above(list(grid.flat), 0.08)
+    grid[0, 1].set_title("close to the surfaces", loc="left", fontsize=style.FONT - 0.5)
+    panels.scale_panels(list(grid[:, 0]), above=0.08, below=0.06)
+    ceiling = gap_ceiling(records, [bearing], ("least_gap", "centre_line_gap"))
+    panels.scale_panels(list(grid[:, 1]), above=0.08, below=0.06, ceiling=ceiling)
     panels.legend_below(figure, list(grid.flat))
     return figure

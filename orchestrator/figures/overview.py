@@ -9,7 +9,7 @@ import numpy as np
 
 from orchestrator import quantities, statistics
 from orchestrator.figures import panels, style
-from orchestrator.figures.least_gap import draw_contact
+from orchestrator.figures.least_gap import draw_contact, gap_ceiling
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 def overview(records: Sequence[xr.Dataset]) -> Figure:
     """Draw force (left) and least gap (right) of every bearing over the whole time.
+
+    Gaps are cut off at a multiple of those before the event: what matters happens near zero.
 
     Parameters
     ----------
@@ -54,7 +56,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
                 extremes = statistics.interval_extreme(record, extreme, name, samples)
                 curve = panels.Curve(time, samples, colour, label, extremes, width=0.5)
                 panels.draw_curve(axes, view, curve, quantity)
-            draw_contact(grid[row, 1], view, record, name, height=0.09)
+            draw_contact(grid[row, 1], view, record, name, height=0.08)
         for axes in grid[row]:
             panels.draw_event(axes, view, records[0], named=False)
             style.dress(axes)
@@ -63,7 +65,9 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
             name, rotation=0, ha="right", va="center", fontweight="bold" if name == analysed else "normal"
         )
     for column, quantity in enumerate((forces, quantities.GAP)):
-        panels.room_above(list(grid[:, column]), 0.05)
         grid[0, column].set_title(quantity.axis, loc="left", fontsize=style.FONT)
+    panels.scale_panels(list(grid[:, 0]), above=0.05)
+    ceiling = gap_ceiling(records, names, ("least_gap",))
+    panels.scale_panels(list(grid[:, 1]), above=0.05, below=0.1, ceiling=ceiling)
     panels.legend_below(figure, list(grid.flat))
     return figure

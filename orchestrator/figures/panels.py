@@ -162,7 +162,7 @@ def mark(
 ) -> None:
     """Mark one extreme value and write it beside the mark."""
     x = view.shown(time)
-    left = (time - view.start) > 0.6 * (view.end - view.start)
+    left = (time - view.start) > 0.75 * (view.end - view.start)
     axes.plot(
         [x],
         [value * quantity.factor],
@@ -195,14 +195,29 @@ def time_axis(axes: Axes, view: View, *, labelled: bool = True) -> None:
         axes.tick_params(labelbottom=False)
 
 
-def room_above(grid: Sequence[Axes], share: float = 0.18) -> None:
-    """Start panels that share their ordinate at zero and leave room for marks above the data of all."""
+def scale_panels(
+    grid: Sequence[Axes], *, above: float = 0.18, below: float = 0.0, ceiling: float | None = None
+) -> None:
+    """Set the ordinate that panels share: from zero, or below, to the largest value.
+
+    Parameters
+    ----------
+    grid : sequence of Axes
+        Panels with a shared ordinate.
+    above, below : float
+        Room for marks over and under the data, as a share of the range.
+    ceiling : float, optional
+        Upper end, as shown, where it is lower than the data.
+    """
     limits = np.array([axes.dataLim.intervaly for axes in grid])
     limits = limits[np.isfinite(limits).all(axis=1)]
-    if limits.size:
-        low, high = min(0.0, float(limits[:, 0].min())), float(limits[:, 1].max())
-        if high > low:
-            grid[0].set_ylim(low, high + share * (high - low))
+    if not limits.size:
+        return
+    low, high = min(0.0, float(limits[:, 0].min())), float(limits[:, 1].max())
+    if ceiling is not None and ceiling < high:
+        high, above = ceiling, 0.0
+    if high > low:
+        grid[0].set_ylim(low - below * (high - low), high + above * (high - low))
 
 
 def legend_below(figure: Figure, axes: Sequence[Axes]) -> None:

@@ -70,6 +70,6 @@ def shaft_maximum(
             fontsize=style.FONT,
         )
         left.set_ylabel(quantity.axis)
-    panels.room_above(list(grid.flat))
+    panels.scale_panels(list(grid.flat))
     panels.legend_below(figure, list(grid.flat))
     return figure

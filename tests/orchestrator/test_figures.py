@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.collections import PolyCollection
 
 from orchestrator import quantities, statistics
@@ -124,13 +125,30 @@ def test_several_runs_share_scales_and_keep_their_colours(records):
 
 
 def test_all_data_are_inside_the_axes(records):
-    for figure in (overview(records), least_gap(records), normal_stress(records)):
-        for axes in panel_axes(figure):
+    full = (forces_and_moments(records), normal_stress(records), vibration_amplitude(records))
+    grids = [panel_axes(figure) for figure in full]
+    # The close-ups of gaps are cut off on purpose.
+    for grid in [*grids, panel_axes(least_gap(records))[::2], panel_axes(overview(records))[::2]]:
+        for axes in grid:
             low, high = axes.get_ylim()
             for drawn in axes.lines:
                 values = np.asarray(drawn.get_ydata(), dtype=float)
                 if drawn.get_transform() == axes.transData:
                     assert low <= values.min() and values.max() <= high
+
+
+def test_close_ups_of_gaps_show_what_happens_near_the_surfaces(record):
+    leaping = record.copy()
+    for name in ("least_gap", "centre_line_gap"):
+        leaping[name] = record[name] * xr.where(record["time"] > 1.0, 5.0, 1.0)
+    before = leaping.sel(time=slice(0.92, 1.0))
+    for figure, name, at in (
+        (least_gap([leaping]), "centre_line_gap", [BEARING]),
+        (overview([leaping]), "least_gap", list(synthetic_record.NAMES)),
+    ):
+        low, high = panel_axes(figure)[1].get_ylim()
+        assert low < 0.0
+        assert high == pytest.approx(1.5e6 * float(before[name].sel(bearing=at).max()))
 
 
 def test_overview_has_a_row_for_each_bearing(record):

@@ -125,7 +125,7 @@ def test_contact_first_instant_share_and_maximum():
     assert statistics.bearing_statistics(record, "A", before, contact_from=threshold).contact_first is None
     found = statistics.bearing_statistics(record, "A", after, contact_from=threshold)
     assert found.contact_first == pytest.approx(1.2)
-    assert found.contact_share == pytest.approx(0.301 / 0.6, rel=1e-6)
+    assert found.contact_share == pytest.approx(0.302, rel=1e-6)  # 301 ms and 1 ms of 1 s
     assert found.contact_max == 7e5
 
 
