@@ -11,11 +11,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from bearing_fmu.axial import axial_basis
+from bearing_fmu.compiled import inner_kernel, stage
 from bearing_fmu.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.grid import COS, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade, place
 from bearing_fmu.guembel import bearing_part
@@ -73,7 +73,7 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
     )
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
     """Grid, gap, conductances and squeezed volume."""
     m = film.circle.shape[2]
@@ -99,7 +99,7 @@ def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
         squeeze[i] = v[1] * (cos[i] - cos[back]) - v[0] * (sin[i] - sin[back])
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _factorise(film: AlignedFilm) -> bool:
     """Eliminate each mode's columns as `ring.factorise` does."""
     m = film.circle.shape[2]
@@ -126,7 +126,7 @@ def _factorise(film: AlignedFilm) -> bool:
     return True
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _substitute(film: AlignedFilm, index: int) -> None:
     """Solve in place for modal pressure `index`."""
     m = film.circle.shape[2]
@@ -147,7 +147,7 @@ def _substitute(film: AlignedFilm, index: int) -> None:
             x[i] = ahead
 
 
-@njit(cache=True, nogil=True)
+@stage
 def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Floats) -> bool:
     """Pressure, wrench, largest pressure and shear integral."""
     m = film.circle.shape[2]
@@ -189,7 +189,7 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
     return True
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _solve_adjoints(film: AlignedFilm) -> None:
     """Modal adjoint pressures 1 and 2, for the two components of the force."""
     m = film.circle.shape[2]
@@ -214,7 +214,7 @@ def _solve_adjoints(film: AlignedFilm) -> None:
     _substitute(film, 2)
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: Floats) -> None:
     """dF/dq and dF/dv as in `tangent`, the sums over the rows being sums over the modes."""
     m = film.circle.shape[2]
@@ -266,7 +266,7 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
                 result[STIFFNESS + at + k] += change
 
 
-@njit(cache=True, nogil=True)
+@stage
 def solve_aligned(
     film: AlignedFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
 ) -> bool:

@@ -16,10 +16,10 @@ asperities: at most two intervals, known exactly since e(z)^2 is quadratic.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from bearing_fmu.greenwood_tripp import SliceTable
+from bearing_fmu.compiled import inner_kernel
+from bearing_fmu.scales import Scales
 
 Floats = NDArray[np.float64]
 
@@ -32,19 +32,25 @@ NODES, WEIGHTS = 0.5 * (_gauss[0] + 1.0), 0.5 * _gauss[1]
 FORCE, FORCE_SLOPE, LOAD, CONTACT_RESULTS = 0, 4, 20, 21
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def sliding_sense(speed: float, radius: float) -> float:
     """Smooth sign of the journal's surface speed."""
     u = speed * radius
     return u / np.sqrt(u * u + CREEP * CREEP)
 
 
-@njit(cache=True, nogil=True)
-def add_slice(table: SliceTable, ex: float, ey: float, z: float, weight: float, grip: float, result: Floats) -> None:
+@inner_kernel
+def add_slice(
+    scales: Scales, table: Floats, ex: float, ey: float, z: float, weight: float, grip: float, result: Floats
+) -> None:
     """Add the contact of one slice.
 
     Parameters
     ----------
+    scales : record of SCALES
+        The bearing.
+    table : ndarray, shape (intervals, 2, 4)
+        Coefficients of its `SliceTable`.
     ex, ey : float
         Eccentricity, m.
     z, weight : float
@@ -55,22 +61,23 @@ def add_slice(table: SliceTable, ex: float, ey: float, z: float, weight: float, 
         To which is added.
     """
     e = np.hypot(ex, ey)
-    place = (e - table.first) / table.step
+    place = (e - scales.contact_first) / scales.contact_step
     if not place > 0.0:
         return
-    index = min(int(place), table.force.shape[0] - 1)
+    index = min(int(place), table.shape[0] - 1)
     s = place - index
-    c = table.force[index]
+    c = table[index, 0]
     force = weight * (c[0] + s * (c[1] + s * (c[2] + s * c[3])))
-    slope = weight * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3])) / table.step
-    c = table.load[index]
+    slope = weight * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3])) / scales.contact_step
+    c = table[index, 1]
     result[LOAD] += weight * (c[0] + s * (c[1] + s * (c[2] + s * c[3])))
     nx, ny = ex / e, ey / e
     dx, dy = nx - grip * ny, ny + grip * nx
     fx, fy = -force * dx, -force * dy
     # d(N n)/de = N' n n' + N/e (1 - n n'), then the friction turns it.
     even = force / e
-    kxx, kxy, kyy = slope * nx * nx + even * ny * ny, (slope - even) * nx * ny, slope * ny * ny + even * nx * nx
+    kxx, kyy = slope * nx * nx + even * ny * ny, slope * ny * ny + even * nx * nx
+    kxy = (slope - even) * nx * ny
     jxx, jxy = -(kxx - grip * kxy), -(kxy - grip * kyy)
     jyx, jyy = -(kxy + grip * kxx), -(kyy + grip * kxy)
     result[0] += fx
@@ -88,32 +95,30 @@ def add_slice(table: SliceTable, ex: float, ey: float, z: float, weight: float, 
         result[at + 3] += z * a
 
 
-@njit(cache=True, nogil=True)
-def add_tilted(table: SliceTable, q: Floats, width: float, grip: float, result: Floats) -> None:
+@inner_kernel
+def add_tilted(scales: Scales, table: Floats, q: Floats, grip: float, result: Floats) -> None:
     """Add the contact over the tilted gap.
 
     Parameters
     ----------
     q : ndarray, shape (4,)
         Position of the journal, m and rad.
-    width : float
-        Bearing width, m.
-    grip, result
+    scales, table, grip, result
         As in `add_slice`.
     """
-    half = 0.5 * width
+    half = 0.5 * scales.width
     # e(z)^2 = square + 2 mixed z + tilt z^2 = first^2 bounds the contact.
     square = q[0] * q[0] + q[1] * q[1]
     mixed = q[0] * q[3] - q[1] * q[2]
     tilt = q[2] * q[2] + q[3] * q[3]
-    reach = table.first * table.first
+    reach = scales.contact_first * scales.contact_first
     ends_left = square - 2.0 * mixed * half + tilt * half * half > reach
     ends_right = square + 2.0 * mixed * half + tilt * half * half > reach
     if not (ends_left or ends_right):
         return
     root = mixed * mixed - tilt * (square - reach)
     if tilt == 0.0 or root <= 0.0:
-        _add_interval(table, q, -half, half, grip, result)
+        _add_interval(scales, table, q, -half, half, grip, result)
         return
     root = np.sqrt(root)
     # The stable pair of roots of tilt z^2 + 2 mixed z + (square - reach).
@@ -121,18 +126,20 @@ def add_tilted(table: SliceTable, q: Floats, width: float, grip: float, result: 
     z1, z2 = pivot / tilt, (square - reach) / pivot if pivot != 0.0 else 0.0
     low, high = min(z1, z2), max(z1, z2)
     if high <= -half or low >= half:
-        _add_interval(table, q, -half, half, grip, result)
+        _add_interval(scales, table, q, -half, half, grip, result)
         return
     if ends_left:
-        _add_interval(table, q, -half, low, grip, result)
+        _add_interval(scales, table, q, -half, low, grip, result)
     if ends_right:
-        _add_interval(table, q, high, half, grip, result)
+        _add_interval(scales, table, q, high, half, grip, result)
 
 
-@njit(cache=True, nogil=True)
-def _add_interval(table: SliceTable, q: Floats, left: float, right: float, grip: float, result: Floats) -> None:
+@inner_kernel
+def _add_interval(
+    scales: Scales, table: Floats, q: Floats, left: float, right: float, grip: float, result: Floats
+) -> None:
     """Gauss-Legendre over one interval of contact."""
     length = right - left
     for i in range(POINTS):
         z = left + length * NODES[i]
-        add_slice(table, q[0] + q[3] * z, q[1] - q[2] * z, z, length * WEIGHTS[i], grip, result)
+        add_slice(scales, table, q[0] + q[3] * z, q[1] - q[2] * z, z, length * WEIGHTS[i], grip, result)

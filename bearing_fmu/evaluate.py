@@ -1,63 +1,56 @@
-"""Compiled evaluation of the port at each modelling depth."""
+"""Compiled evaluation of the port at each modelling depth.
+
+All kernels take the port's arrays, the bearing's constants and contact table, the film's work space
+and `work`, which holds in turn the relative state, the result of the film and that of the contact.
+"""
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from bearing_fmu.aligned import AlignedFilm, solve_aligned
-from bearing_fmu.contact import add_slice, add_tilted, sliding_sense
-from bearing_fmu.greenwood_tripp import SliceTable
-from bearing_fmu.outputs import NO_SOLUTION, Scales, relative_state, write_outputs
+from bearing_fmu.compiled import kernel
+from bearing_fmu.contact import CONTACT_RESULTS, add_slice, add_tilted, sliding_sense
+from bearing_fmu.outputs import NO_SOLUTION, STATE, relative_state, write_outputs
 from bearing_fmu.reynolds import solve_pressure
 from bearing_fmu.short import solve_short
 from bearing_fmu.tangent import add_tangent
-from bearing_fmu.tilted_film import TiltedFilm
+from bearing_fmu.tilted_film import RESULTS, TiltedFilm
 
 Floats = NDArray[np.float64]
+Constants = NDArray[np.void]
+
+WORK = STATE + RESULTS + CONTACT_RESULTS
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def evaluate_v1(
-    inputs: Floats,
-    offset: Floats,
-    out: Floats,
-    scales: Scales,
-    table: SliceTable,
-    film: TiltedFilm,
-    state: Floats,
-    result: Floats,
-    contact: Floats,
+    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: TiltedFilm, work: Floats
 ) -> int:
     """V1: Reynolds equation and contact over the tilted gap."""
+    scales = constants[0]
+    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
     if status != 0:
         return status
-    speed = inputs[16]
-    q, v = state[4:8], state[8:12]
+    speed, q, v = inputs[16], state[4:8], state[8:12]
     if not solve_pressure(film, q, v, speed, scales.ambient, scales.sigma, result):
         return NO_SOLUTION
     add_tangent(film, q, v, speed, result)
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
-    add_tilted(table, state[:4], scales.width, grip, contact)
+    add_tilted(scales, table, state[:4], grip, contact)
     return write_outputs(scales, inputs, state, result, contact, out)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def evaluate_v2(
-    inputs: Floats,
-    offset: Floats,
-    out: Floats,
-    scales: Scales,
-    table: SliceTable,
-    film: AlignedFilm,
-    state: Floats,
-    result: Floats,
-    contact: Floats,
+    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: AlignedFilm, work: Floats
 ) -> int:
     """V2: Reynolds equation and contact over the aligned gap."""
+    scales = constants[0]
+    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
     if status != 0:
         return status
@@ -66,30 +59,23 @@ def evaluate_v2(
         return NO_SOLUTION
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
-    add_slice(table, state[0], state[1], 0.0, scales.width, grip, contact)
+    add_slice(scales, table, state[0], state[1], 0.0, scales.width, grip, contact)
     return write_outputs(scales, inputs, state, result, contact, out)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def evaluate_v3(
-    inputs: Floats,
-    offset: Floats,
-    out: Floats,
-    scales: Scales,
-    table: SliceTable,
-    work: Floats,
-    state: Floats,
-    result: Floats,
-    contact: Floats,
+    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: Floats, work: Floats
 ) -> int:
     """V3: short bearing and contact over the aligned gap."""
+    scales = constants[0]
+    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
     if status != 0:
         return status
     speed = inputs[16]
-    ratio = (0.5 * scales.width / scales.radius) ** 2
-    solve_short(state[4:8], state[8:12], speed, scales.sigma, ratio, work, result)
+    solve_short(state[4:8], state[8:12], speed, scales.ambient, scales.sigma, scales.slenderness, film, result)
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
-    add_slice(table, state[0], state[1], 0.0, scales.width, grip, contact)
+    add_slice(scales, table, state[0], state[1], 0.0, scales.width, grip, contact)
     return write_outputs(scales, inputs, state, result, contact, out)

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.aligned import aligned_film
-from bearing_fmu.contact import CONTACT_RESULTS
-from bearing_fmu.evaluate import evaluate_v1, evaluate_v2, evaluate_v3
+from bearing_fmu.evaluate import WORK, evaluate_v1, evaluate_v2, evaluate_v3
 from bearing_fmu.greenwood_tripp import slice_table
-from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS, scales
+from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.scales import scales
+from bearing_fmu.short_flooded import short_film
 from bearing_fmu.status import FilmFailure, FilmStatus
-from bearing_fmu.tilted_film import RESULTS, tilted_film
+from bearing_fmu.tilted_film import tilted_film
 
 __all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
 
@@ -94,16 +95,17 @@ class Film:
         self.parameters = parameters
         self._kernel: Callable[..., int]
         self._data: tuple[Any, ...]
-        common = (scales(parameters, aligned=depth is not Depth.V1), slice_table(parameters))
-        work = (np.zeros(12), np.zeros(RESULTS), np.zeros(CONTACT_RESULTS))
+        table = slice_table(parameters)
+        common = (scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients)
+        work = np.zeros(WORK)
         resolution = int(parameters.columns), int(parameters.rows), parameters.diameter / parameters.width
         match depth:
             case Depth.V1:
-                self._kernel, self._data = evaluate_v1, (*common, tilted_film(*resolution), *work)
+                self._kernel, self._data = evaluate_v1, (*common, tilted_film(*resolution), work)
             case Depth.V2:
-                self._kernel, self._data = evaluate_v2, (*common, aligned_film(*resolution), *work)
+                self._kernel, self._data = evaluate_v2, (*common, aligned_film(*resolution), work)
             case Depth.V3:
-                self._kernel, self._data = evaluate_v3, (*common, np.zeros((8, 4)), *work)
+                self._kernel, self._data = evaluate_v3, (*common, short_film(int(parameters.columns)), work)
 
     def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
         """Evaluate the port.

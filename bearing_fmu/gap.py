@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from bearing_fmu.compiled import inner_kernel, kernel
 
 Floats = NDArray[np.float64]
 
@@ -14,7 +15,7 @@ RESIDUAL = 0.1
 ROUGH_LIMIT = 3.0 + RESIDUAL
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def flow_gap(h: float, sigma: float) -> tuple[float, float, float]:
     """Gap that carries the oil, over the gap between the mean lines, with two derivatives.
 
@@ -37,7 +38,7 @@ def flow_gap(h: float, sigma: float) -> tuple[float, float, float]:
     return sigma * (RESIDUAL + 3.0 * open_part), below, 35.0 / 96.0 * (1.0 - x2) ** 3 / sigma
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def flow_gaps(h: Floats, sigma: float, rough: bool, t: Floats, t1: Floats, t2: Floats) -> None:
     """`flow_gap` of an array; with `rough` False no point is below the limit."""
     if rough:
@@ -50,7 +51,7 @@ def flow_gaps(h: Floats, sigma: float, rough: bool, t: Floats, t1: Floats, t2: F
             t2[i] = 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def least_gap(q: Floats) -> tuple[float, float, float]:
     """Least gap over the film, its position, and the least gap at the mid-plane.
 

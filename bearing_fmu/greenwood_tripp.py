@@ -61,23 +61,20 @@ def contact_pressure(gap: Floats | float, roughness: float, modulus: float) -> F
 
 
 class SliceTable(NamedTuple):
-    """Contact of one bearing slice over its eccentricity, for evaluation in compiled code.
+    """Contact of one bearing slice over its eccentricity, as cubic splines over even intervals.
 
     Attributes
     ----------
     first, step : float
         First eccentricity of the table and its spacing, m.
-    force : ndarray, shape (intervals, 4)
-        Spline coefficients, ascending powers of the place in the interval [0, 1], of the radial force
-        per width, N/m, R int p_c cos(psi) dpsi.
-    load : ndarray, shape (intervals, 4)
-        Likewise of the integral of the contact pressure per width, N/m, R int p_c dpsi.
+    coefficients : ndarray, shape (intervals, 2, 4)
+        Ascending powers of the place in the interval [0, 1] of the radial force R int p_c cos(psi) dpsi
+        and of the normal load R int p_c dpsi, both per width, N/m.
     """
 
     first: float
     step: float
-    force: Floats
-    load: Floats
+    coefficients: Floats
 
 
 def slice_table(parameters: BearingParameters) -> SliceTable:
@@ -87,7 +84,7 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     """
     sigma, clearance = parameters.roughness, parameters.clearance
     if not parameters.has_contact:
-        return SliceTable(np.inf, 1.0, np.zeros((1, 4)), np.zeros((1, 4)))
+        return SliceTable(np.inf, 1.0, np.zeros((1, 2, 4)))
     first = clearance - REACH * sigma
     step = _STEP * sigma
     e = first + step * np.arange(int(np.ceil((clearance - parameters.deepest_gap - first) / step)) + 2)
@@ -102,16 +99,7 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     table = np.arange(float(reduced.min()) - 0.02, REACH + 0.02, 0.01)
     pressure = parameters.contact_modulus * CubicSpline(table, asperity_integral(2.5, table))(reduced)
     arc = parameters.radius * pressure * quadrature
-    return SliceTable(
-        float(first),
-        float(step),
-        _coefficients((arc * np.cos(psi)).sum(axis=1), clamp=True),
-        _coefficients(arc.sum(axis=1), clamp=True),
-    )
-
-
-def _coefficients(values: Floats, clamp: bool) -> Floats:
-    """Cubic spline over unit steps as ascending coefficients of each interval."""
-    values = values - values[0]
-    spline = CubicSpline(np.arange(values.size), values, bc_type=((1, 0.0), "not-a-knot") if clamp else "natural")
-    return np.ascontiguousarray(spline.c[::-1].T)
+    values = np.stack(((arc * np.cos(psi)).sum(axis=1), arc.sum(axis=1)), axis=1)
+    spline = CubicSpline(np.arange(e.size), values - values[0], bc_type=((1, np.zeros(2)), "not-a-knot"))
+    coefficients = np.moveaxis(spline.c[::-1], 0, -1)
+    return SliceTable(float(first), float(step), np.ascontiguousarray(coefficients))

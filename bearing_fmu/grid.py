@@ -13,8 +13,9 @@ tangent.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from bearing_fmu.compiled import inner_kernel
 
 Floats = NDArray[np.float64]
 
@@ -23,7 +24,7 @@ Floats = NDArray[np.float64]
 COS, SIN, METRIC, MOTION, STRETCHING, RING_ROWS = 0, 1, 2, 3, 7, 11
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _grading_of(ex: float, ey: float, a: Floats, da: Floats) -> None:
     """Map parameter of one eccentricity, a = e g(|e|^2), and its derivative (2, 2).
 
@@ -48,7 +49,7 @@ def _grading_of(ex: float, ey: float, a: Floats, da: Floats) -> None:
     da[1, 1] = g + 2.0 * dg * ey * ey
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def grade(q: Floats, a: Floats, da: Floats, part: Floats) -> None:
     """Map parameter of a tilted journal and its derivative.
 
@@ -73,7 +74,7 @@ def grade(q: Floats, a: Floats, da: Floats, part: Floats) -> None:
             da[i, 3] += 0.5 * end * part[1 + i, 0]
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def place(circle: Floats, a: Floats, da: Floats, coordinates: int, ring: Floats) -> None:
     """Place a ring of points.
 

@@ -10,13 +10,14 @@ continuous first derivatives.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from bearing_fmu.compiled import kernel
 
 Floats = NDArray[np.float64]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def bearing_part(p: Floats, count: int, nodal: Floats, own: Floats, ahead: Floats, behind: Floats) -> None:
     """Nodal values that integrate the positive part of p around the ring.
 

@@ -2,69 +2,28 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bearing_fmu.compiled import inner_kernel
 from bearing_fmu.contact import FORCE, FORCE_SLOPE, LOAD
 from bearing_fmu.gap import least_gap
-from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.scales import Scales
 from bearing_fmu.status import FilmStatus
 from bearing_fmu.tilted_film import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
 
 Floats = NDArray[np.float64]
 
-INPUTS = 17
+INPUTS, STATE = 17, 12
 # Where the groups of the port's outputs begin.
 OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
 
 NOT_FINITE = int(FilmStatus.NOT_FINITE)
-GAP_CLOSED = int(FilmStatus.GAP_CLOSED)
-TOO_DEEP = int(FilmStatus.TOO_DEEP)
 NO_SOLUTION = int(FilmStatus.NO_SOLUTION)
 OK = int(FilmStatus.OK)
 
 
-class Scales(NamedTuple):
-    """Constants of one bearing in the form the kernels take."""
-
-    radius: float
-    width: float
-    clearance: float
-    viscosity: float
-    friction: float
-    sigma: float  #: roughness over clearance
-    deepest: float  #: least admissible gap over clearance
-    ambient: float  #: ambient pressure over `pressure`, 1/s
-    pressure: float  #: 6 eta R^2 / C^2, Pa s
-    force: float  #: `pressure` R b/2, N s
-    closes: int  #: status where the gap is below the deepest one
-    aligned: bool  #: whether tilts are ignored
-
-
-def scales(parameters: BearingParameters, aligned: bool) -> Scales:
-    """Constants of the kernels for one bearing."""
-    radius, clearance = parameters.radius, parameters.clearance
-    pressure = 6.0 * parameters.viscosity * (radius / clearance) ** 2
-    return Scales(
-        radius=radius,
-        width=float(parameters.width),
-        clearance=float(clearance),
-        viscosity=float(parameters.viscosity),
-        friction=float(parameters.friction),
-        sigma=parameters.roughness / clearance,
-        deepest=parameters.deepest_gap / clearance,
-        ambient=parameters.ambient_pressure / pressure,
-        pressure=pressure,
-        force=pressure * radius * 0.5 * parameters.width,
-        closes=TOO_DEEP if parameters.has_contact else GAP_CLOSED,
-        aligned=aligned,
-    )
-
-
-@njit(cache=True, nogil=True)
+@inner_kernel
 def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats) -> int:
     """Relative state of journal and bore, and whether it can be evaluated.
 
@@ -94,7 +53,7 @@ def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats
         lever = 1.0 if i < 2 else half
         q = inputs[i] - inputs[8 + i] - offset[i]
         v = inputs[4 + i] - inputs[12 + i]
-        if scales.aligned and i >= 2:
+        if scales.aligned != 0 and i >= 2:
             q, v = 0.0, 0.0
         state[i] = q
         state[4 + i] = q * lever / scales.clearance
@@ -104,7 +63,7 @@ def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats
     return OK
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def write_outputs(
     scales: Scales, inputs: Floats, state: Floats, result: Floats, contact: Floats, out: Floats
 ) -> int:

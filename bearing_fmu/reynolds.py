@@ -16,9 +16,9 @@ tridiagonal with one dense block a column.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bearing_fmu.compiled import inner_kernel, stage
 from bearing_fmu.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.grid import COS, METRIC, SIN, grade, place
 from bearing_fmu.guembel import bearing_part
@@ -40,7 +40,7 @@ from bearing_fmu.vector import LANES, add_rows
 Floats = NDArray[np.float64]
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
     """Grid, gap and conductances at the columns (axial flow) and at the faces (flow around)."""
     m = film.circle.shape[2]
@@ -70,7 +70,7 @@ def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
                     conductance[i] = scale / metric[i] * (t[i] * t[i] * t[i])
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _assemble(film: TiltedFilm, v: Floats, speed: float) -> None:
     """System and right-hand side in the layout of the ring solver."""
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
@@ -97,7 +97,7 @@ def _assemble(film: TiltedFilm, v: Floats, speed: float) -> None:
             sides[i * width + j] = -film.weights[j] * (wedge + 2.0 * t1[i] * squeeze[i])
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
     """Copy a solution of the ring solver into pressure `index`, with differences and slopes."""
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
@@ -117,7 +117,7 @@ def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
             add_rows(stack, at + i, film.slopes, k * n, 1, stack, i, length, n)
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
     """Wrench of the bearing part of the pressure, largest pressure, shear integral."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -151,7 +151,7 @@ def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
     result[SHEAR] = shear
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def summit(p: Floats, count: int) -> float:
     """Largest pressure on a ring of `count` nodes: the summit of the parabola at the largest value."""
     at = 0
@@ -164,7 +164,7 @@ def summit(p: Floats, count: int) -> float:
     return max(p[at] + rise, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _peak(film: TiltedFilm, ambient: float) -> float:
     """Largest pressure over the film.
 
@@ -192,7 +192,7 @@ def _peak(film: TiltedFilm, ambient: float) -> float:
     return max(top + ambient, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@stage
 def solve_pressure(
     film: TiltedFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
 ) -> bool:

@@ -14,15 +14,15 @@ All arrays are flat with rows padded to `width`, a multiple of eight, and zero i
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from bearing_fmu.vector import LANES, add_rows
+from bearing_fmu.compiled import inner_kernel, kernel
+from bearing_fmu.vector import LANES, add_product, add_rows, set_rows, subtract_product, subtract_rows
 
 Floats = NDArray[np.float64]
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def invert(s: Floats, at: int, n: int, width: int, factor: Floats) -> bool:
     """Invert the symmetric positive definite block at `at` in place; False if it is not definite."""
     for pivot in range(n):
@@ -30,23 +30,22 @@ def invert(s: Floats, at: int, n: int, width: int, factor: Floats) -> bool:
         diagonal = s[row + pivot]
         if not diagonal > 0.0:
             return False
-        reciprocal = 1.0 / diagonal
         for j in range(n):
-            factor[j] = -s[at + j * width + pivot]
+            factor[j] = s[at + j * width + pivot]
             s[at + j * width + pivot] = 0.0
+        factor[pivot] = 1.0 / diagonal
         s[row + pivot] = 1.0
-        for k in range(width):
-            s[row + k] *= reciprocal
-        for j in range(n):
-            if j != pivot:
-                for k in range(0, width, LANES):
-                    add_rows(s, at + j * width + k, factor, j, 1, s, row + k, 0, 1)
+        for k in range(0, width, LANES):
+            set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
+            for j in range(n):
+                if j != pivot:
+                    subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def factorise(
-    b: Floats, c: Floats, w: Floats, wt: Floats, v: Floats, factor: Floats, count: int, n: int, width: int
+    b: Floats, c: Floats, w: Floats, wt: Floats, v: Floats, row: Floats, count: int, n: int, width: int
 ) -> bool:
     """Eliminate the columns.
 
@@ -58,7 +57,7 @@ def factorise(
         `-c[i]` couples column i and i + 1, the last one with the first.
     w, wt : ndarray, shape (count * n * width,)
         On return S_i^-1 V_i, the coupling of each column to the last one, and its transpose.
-    v, factor : ndarray, shape (n * width,), (width,)
+    v, row : ndarray, shape (n * width,), (width,) or longer
         Work space.
 
     Returns
@@ -76,31 +75,29 @@ def factorise(
         if i == count - 2:
             for j in range(n):
                 v[j * width + j] -= c[i * width + j]
-        if not invert(b, at, n, width, factor):
+        if not invert(b, at, n, width, row):
             return False
         for j in range(n):
-            for k in range(width):
-                w[at + j * width + k] = 0.0
             for k in range(0, width, LANES):
-                add_rows(w, at + j * width + k, b, at + j * width, 1, v, k, width, n)
+                set_rows(w, at + j * width + k, b, at + j * width, 1, v, k, width, n)
+        for j in range(n):
             for k in range(n):
                 wt[at + k * width + j] = w[at + j * width + k]
-        for j in range(block):
-            v[j] = -v[j]
         for j in range(n):
             for k in range(0, width, LANES):
-                add_rows(b, last + j * width + k, v, j, width, w, at + k, width, n)
+                subtract_rows(b, last + j * width + k, v, j, width, w, at + k, width, n)
         if i < count - 2:
             ahead = at + block
             for j in range(n):
-                cj = c[i * width + j]
-                for k in range(width):
-                    v[j * width + k] = cj * w[at + j * width + k]
-                    b[ahead + j * width + k] -= cj * b[at + j * width + k] * c[i * width + k]
-    return invert(b, last, n, width, factor)
+                for k in range(0, width, LANES):
+                    here = j * width + k
+                    set_rows(v, here, c, i * width + j, 0, w, at + here, 0, 1)
+                    set_rows(row, k, c, i * width + j, 0, b, at + here, 0, 1)
+                    subtract_product(b, ahead + here, row, k, c, i * width + k)
+    return invert(b, last, n, width, row)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def substitute(
     b: Floats, c: Floats, w: Floats, wt: Floats, x: Floats, y: Floats, count: int, n: int, width: int, sides: int
 ) -> None:
@@ -112,42 +109,30 @@ def substitute(
         As left by `factorise`.
     x : ndarray, shape (count * sides * width,)
         Right-hand sides, for each column one row a side; on return the solution.
-    y : ndarray, shape (2 * sides * width,)
+    y : ndarray, shape (sides * width,)
         Work space.
     """
     block = n * width
     rows = sides * width
     last = (count - 1) * rows
-    for i in range(count - 1):
+    for i in range(count):
         at = i * rows
-        for m in range(sides):
-            for k in range(width):
-                y[m * width + k] = x[at + m * width + k]
-                y[rows + m * width + k] = -x[at + m * width + k]
-                x[at + m * width + k] = 0.0
-        for m in range(sides):
+        for k in range(rows):
+            y[k] = x[at + k]
+        for m in range(0, rows, width):
             for k in range(0, width, LANES):
-                add_rows(x, last + m * width + k, y, rows + m * width, 1, w, i * block + k, width, n)
-                add_rows(x, at + m * width + k, y, m * width, 1, b, i * block + k, width, n)
-        if i < count - 2:
-            for m in range(sides):
-                for k in range(width):
-                    x[at + rows + m * width + k] += c[i * width + k] * x[at + m * width + k]
-    for m in range(sides):
-        for k in range(width):
-            y[m * width + k] = x[last + m * width + k]
-            x[last + m * width + k] = 0.0
-        for k in range(0, width, LANES):
-            add_rows(x, last + m * width + k, y, m * width, 1, b, (count - 1) * block + k, width, n)
-    for k in range(rows):
-        y[rows + k] = -x[last + k]
+                set_rows(x, at + m + k, y, m, 1, b, i * block + k, width, n)
+                if i < count - 1:
+                    subtract_rows(x, last + m + k, y, m, 1, w, i * block + k, width, n)
+                if i < count - 2:
+                    add_product(x, at + rows + m + k, c, i * width + k, x, at + m + k)
     for i in range(count - 2, -1, -1):
         at = i * rows
-        for m in range(sides):
+        for m in range(0, rows, width):
+            for k in range(0, width, LANES):
+                subtract_rows(x, at + m + k, x, last + m, 1, wt, i * block + k, width, n)
             if i < count - 2:
                 for k in range(width):
-                    y[m * width + k] = c[i * width + k] * x[at + rows + m * width + k]
-            for k in range(0, width, LANES):
-                if i < count - 2:
-                    add_rows(x, at + m * width + k, y, m * width, 1, b, i * block + k, width, n)
-                add_rows(x, at + m * width + k, y, rows + m * width, 1, wt, i * block + k, width, n)
+                    y[k] = c[i * width + k] * x[at + rows + m + k]
+                for k in range(0, width, LANES):
+                    add_rows(x, at + m + k, y, 0, 1, b, i * block + k, width, n)

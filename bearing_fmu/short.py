@@ -5,16 +5,18 @@ Without the flow around the circumference, with v the velocity and everything as
     p = (b/d)^2 / 2 (1 - z^2) (a cos(phi) - b sin(phi)) / H^3,   a = speed y + 2 v_x,  b = speed x - 2 v_y
 
 Half the circumference carries pressure; integrated over it the force is Capone's (1986, 1991), here in
-a form without the degenerate branches of the published one.
+a form without the degenerate branches of the published one.  An ambient pressure over the cavity
+changes where the film ends; see `short_flooded`.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bearing_fmu.compiled import inner_kernel, kernel
 from bearing_fmu.gap import ROUGH_LIMIT, flow_gap
+from bearing_fmu.short_flooded import SMALL, flooded
 from bearing_fmu.tilted_film import DAMPING, PEAK, SHEAR, STIFFNESS
 
 Floats = NDArray[np.float64]
@@ -24,7 +26,7 @@ _angles = 2.0 * np.pi / _SAMPLES * np.arange(_SAMPLES)
 _COS, _SIN = np.cos(_angles), np.sin(_angles)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def capone(x: float, y: float, a: float, b: float, force: Floats, slope: Floats) -> None:
     """Force of the half film and its derivatives.
 
@@ -74,7 +76,7 @@ def capone(x: float, y: float, a: float, b: float, force: Floats, slope: Floats)
         slope[1, k] = -(part_y + force[1] * dr) / rest
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def largest_pressure(x: float, y: float, a: float, b: float) -> float:
     """Largest value of (a cos(phi) - b sin(phi)) / H^3 around the circumference.
 
@@ -103,7 +105,7 @@ def largest_pressure(x: float, y: float, a: float, b: float) -> float:
     return best / (root * root) ** 3
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def effective_state(q: Floats, v: Floats, sigma: float, state: Floats, jacobian: Floats) -> None:
     """State of a smooth short bearing whose least gap is the gap open to the oil.
 
@@ -150,28 +152,34 @@ def effective_state(q: Floats, v: Floats, sigma: float, state: Floats, jacobian:
             )
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def solve_short(
-    q: Floats, v: Floats, speed: float, sigma: float, ratio: float, work: Floats, result: Floats
+    q: Floats, v: Floats, speed: float, ambient: float, sigma: float, ratio: float, film: Floats, result: Floats
 ) -> None:
     """Wrench and tangent of the short bearing.
 
     Parameters
     ----------
-    q, v, speed, sigma, result
+    q, v, speed, ambient, sigma, result
         As in `reynolds.solve_pressure`.
     ratio : float
         (b/d)^2.
-    work : ndarray, shape (8, 4)
-        Work space.
+    film : ndarray
+        Work space from `short_flooded.short_film`.
     """
     result[:] = 0.0
-    state, jacobian, force, slope = work[0], work[1:5], work[5, :2], work[6:8]
+    small = film[SMALL + 1]
+    state, jacobian = small[:4], small[4:20].reshape(4, 4)
+    force, slope = small[20:22], small[22:30].reshape(2, 4)
     effective_state(q, v, sigma, state, jacobian)
     x, y = state[0], state[1]
     a, b = speed * y + 2.0 * state[2], speed * x - 2.0 * state[3]
-    capone(x, y, a, b, force, slope)
-    unit = ratio / 3.0
+    if ambient > 0.0:
+        unit = 1.0
+        flooded(x, y, a, b, ambient, 0.5 * ratio, film, force, slope)
+    else:
+        unit = ratio / 3.0
+        capone(x, y, a, b, force, slope)
     for i in range(2):
         result[i] = unit * force[i]
         by_x, by_y = slope[i, 0] + speed * slope[i, 3], slope[i, 1] + speed * slope[i, 2]
@@ -181,5 +189,5 @@ def solve_short(
                 by_x * jacobian[0, k] + by_y * jacobian[1, k] + by_vx * jacobian[2, k] + by_vy * jacobian[3, k]
             )
             result[DAMPING + 4 * i + k] = unit * (by_vx * jacobian[2, 2 + k] + by_vy * jacobian[3, 2 + k])
-    result[PEAK] = 0.5 * ratio * max(largest_pressure(x, y, a, b), 0.0)
+    result[PEAK] = ambient + 0.5 * ratio * max(largest_pressure(x, y, a, b), 0.0)
     result[SHEAR] = 4.0 * np.pi / np.sqrt(1.0 - x * x - y * y)

@@ -11,9 +11,9 @@ axial flow at each node, to be contracted with the values, differences and slope
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bearing_fmu.compiled import inner_kernel, stage
 from bearing_fmu.grid import COS, METRIC, MOTION, SIN, STRETCHING
 from bearing_fmu.reynolds import unfold
 from bearing_fmu.ring import substitute
@@ -35,7 +35,7 @@ Floats = NDArray[np.float64]
 TANGENT, BY_GAP, BY_METRIC = 0, 1, 2
 
 
-@njit(cache=True, nogil=True)
+@stage
 def _solve_adjoints(film: TiltedFilm) -> None:
     """Adjoint pressures 1-4, for the four components of the wrench."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -66,7 +66,7 @@ def _solve_adjoints(film: TiltedFilm) -> None:
         unfold(film, k + 1, k, 4)
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _prepare(film: TiltedFilm, speed: float) -> None:
     """Derivatives of the residual by gap, metric and squeezed volume, in the stack's rows."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -96,7 +96,7 @@ def _prepare(film: TiltedFilm, speed: float) -> None:
             metric[i] = -flow
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _gap_change(film: TiltedFilm, q: Floats, k: int, side: int, z: float, change: Floats) -> None:
     """dH/dq_k at one z, with the motion of the grid."""
     ring = film.rings[side]
@@ -110,7 +110,7 @@ def _gap_change(film: TiltedFilm, q: Floats, k: int, side: int, z: float, change
         change[i] = fc * cos[i] + fs * sin[i] + (ex * sin[i] - ey * cos[i]) * motion[i]
 
 
-@njit(cache=True, nogil=True)
+@inner_kernel
 def _residual_tangent(film: TiltedFilm, q: Floats, v: Floats, k: int) -> None:
     """Tangent of the residual along q_k."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -140,7 +140,7 @@ def _residual_tangent(film: TiltedFilm, q: Floats, v: Floats, k: int) -> None:
                 out[i] = gap[i] * change[i] + metric[i] * around[i]
 
 
-@njit(cache=True, nogil=True, fastmath={"contract", "reassoc"})
+@inner_kernel
 def _contract(film: TiltedFilm, k: int, result: Floats) -> None:
     """dF/dq_k through the pressure."""
     tangent = film.forcing[TANGENT].reshape(-1)
@@ -158,7 +158,7 @@ def _contract(film: TiltedFilm, k: int, result: Floats) -> None:
     result[STIFFNESS + 12 + k] = s3
 
 
-@njit(cache=True, nogil=True, fastmath={"contract", "reassoc"})
+@inner_kernel
 def _add_grid_motion(film: TiltedFilm, result: Floats) -> None:
     """dF/dq at fixed nodal pressures: the quadrature moves with the grid."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -189,7 +189,7 @@ def _add_grid_motion(film: TiltedFilm, result: Floats) -> None:
         result[STIFFNESS + 12 + k] += s3
 
 
-@njit(cache=True, nogil=True, fastmath={"contract", "reassoc"})
+@inner_kernel
 def _damping(film: TiltedFilm, result: Floats) -> None:
     """dF/dv: the velocity enters through the squeezed volume alone."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -216,7 +216,7 @@ def _damping(film: TiltedFilm, result: Floats) -> None:
             result[row + 3] -= z * by_sin
 
 
-@njit(cache=True, nogil=True)
+@stage
 def add_tangent(film: TiltedFilm, q: Floats, v: Floats, speed: float, result: Floats) -> None:
     """Complete `result` of `solve_pressure` by dF/dq and dF/dv, each (4, 4) row by row."""
     _solve_adjoints(film)

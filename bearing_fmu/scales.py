@@ -1,0 +1,61 @@
+"""Constants of one bearing in the form the kernels take."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.greenwood_tripp import SliceTable
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.status import FilmStatus
+
+#: One record, since unpacking a tuple of numbers at each call would cost more than the short bearing.
+SCALES = np.dtype(
+    [
+        ("radius", np.float64),
+        ("width", np.float64),
+        ("clearance", np.float64),
+        ("viscosity", np.float64),
+        ("friction", np.float64),
+        ("sigma", np.float64),  # roughness over clearance
+        ("deepest", np.float64),  # least admissible gap over clearance
+        ("ambient", np.float64),  # ambient pressure over `pressure`, 1/s
+        ("pressure", np.float64),  # 6 eta R^2 / C^2, Pa s
+        ("force", np.float64),  # `pressure` R b/2, N s
+        ("slenderness", np.float64),  # (b/d)^2
+        ("contact_first", np.float64),  # first eccentricity of the contact table, m
+        ("contact_step", np.float64),  # its spacing, m
+        ("closes", np.int64),  # status where the gap is below the deepest one
+        ("aligned", np.int64),  # 1 where tilts are ignored
+    ]
+)
+Scales: TypeAlias = Any  # a record of SCALES
+
+
+def scales(parameters: BearingParameters, table: SliceTable, aligned: bool) -> NDArray[np.void]:
+    """Constants of the kernels for one bearing, shape (1,)."""
+    radius, clearance = parameters.radius, parameters.clearance
+    pressure = 6.0 * parameters.viscosity * (radius / clearance) ** 2
+    record = np.zeros(1, SCALES)
+    values: dict[str, float] = {
+        "radius": radius,
+        "width": parameters.width,
+        "clearance": clearance,
+        "viscosity": parameters.viscosity,
+        "friction": parameters.friction,
+        "sigma": parameters.roughness / clearance,
+        "deepest": parameters.deepest_gap / clearance,
+        "ambient": parameters.ambient_pressure / pressure,
+        "pressure": pressure,
+        "force": pressure * radius * 0.5 * parameters.width,
+        "slenderness": (parameters.width / parameters.diameter) ** 2,
+        "contact_first": table.first,
+        "contact_step": table.step,
+        "closes": FilmStatus.TOO_DEEP if parameters.has_contact else FilmStatus.GAP_CLOSED,
+        "aligned": aligned,
+    }
+    for name, value in values.items():
+        record[name] = value
+    return record
