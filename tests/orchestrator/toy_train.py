@@ -1,5 +1,6 @@
 """A train of two bearings whose FMUs are the oscillator's, to run the master as a whole."""
 
+import math
 import shutil
 
 from orchestrator.scenario_file import load_scenario
@@ -8,6 +9,7 @@ JOURNAL_MASS, INNER_MASS, GRAVITY = 100.0, 400.0, 9.80665
 SHAFT_STIFFNESS, SHAFT_DAMPING = 4e6, 1e3
 STIFFNESS, DAMPING, CLEARANCE = 2e7, 2e4, 8e-4
 SPEED, WHEEL_MASS, GRADE = 100.0, 400.0, 2.5e-3
+SHAFT_MASS = 7850.0 * math.pi / 4.0 * 0.8**2 * 3.0
 WEIGHT = (JOURNAL_MASS + INNER_MASS) * GRAVITY
 
 BEARINGS = "".join(
@@ -41,6 +43,7 @@ mass = {WHEEL_MASS}
 polar_inertia = 1.0
 transverse_inertia = 1.0
 mean_diameter = 1.0
+balance_factor = {WHEEL_MASS / (WHEEL_MASS + SHAFT_MASS)}
 """
 SHAFT = "length,outer_diameter,inner_diameter,material\n" + 3 * "1.0,0.8,0.0,steel\n"
 SCENARIO = """
