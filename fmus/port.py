@@ -153,7 +153,9 @@ def at_bearing(index: int, name: str) -> str:
 
 _ROTOR_PARAMETERS: tuple[Variable, ...] = (
     Variable("gravity", "parameter", "m/s2", "gravity, against y", 9.80665, minimum=0.0, nominal=10.0),
-    Variable("reduction", "parameter", "", "irs, guyan, craig-bampton or none", "irs", kind="String"),
+    Variable(
+        "reduction", "parameter", "", "irs, irs-plain, guyan, craig-bampton, none", "irs", kind="String"
+    ),
     Variable(
         "start.from_law",
         "parameter",

@@ -12,8 +12,6 @@ from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 
-import pythonfmu
-
 from fmus import loader
 from fmus.describe import page
 from fmus.description import Identity, model_description
@@ -91,7 +89,7 @@ class Recipe:
             files |= {f"{package}/{name}": content for name, content in sources.items()}
         files |= {f"resources/{name}": content for name, content in self.resources.items()}
         said = (self.file_name, self.name, self.description, self.facade, self.facade_class)
-        made_with = (pythonfmu.__version__, version(), dict(self.arguments))
+        made_with = (metadata.version("pythonfmu"), version(), dict(self.arguments))
         files["recipe"] = json.dumps([said, made_with], sort_keys=True).encode()
         return loader.digest_of(files.items())
 
@@ -151,7 +149,8 @@ def _loader_digest() -> str:
 
 def _pythonfmu_files(identifier: str) -> dict[str, bytes]:
     """Return pythonfmu's part: its Python modules, its library per platform, its licence."""
-    folder = Path(pythonfmu.__file__).parent
+    # not pythonfmu.__file__: once an FMU is loaded, that may be the copy in its resources
+    folder = Path(str(metadata.distribution("pythonfmu").locate_file("pythonfmu")))
     files = {f"resources/pythonfmu/{p.name}": p.read_bytes() for p in folder.glob("*.py")}
     binaries = folder / "resources" / "binaries"
     for path in binaries.rglob("*"):
