@@ -13,6 +13,7 @@ from orchestrator import exit_status
 from orchestrator.errors import OrchestratorError
 from orchestrator.figures.write import write_figures
 from orchestrator.fmu_folder import ensure_fmus
+from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
 from orchestrator.record_files import write_record
 from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
@@ -91,7 +92,7 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     folder = request.out or default_folder(request.source, scenario)
     check_folder(folder)
     ensure_fmus(request.fmus, train, {scenario.depth_of(name) for name in names}, console)
-    with show_progress(scenario.end, console) as progress:
+    with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
         result = simulate(scenario, request.fmus, progress)
     summary = summarise(result, analysed=request.bearing)
     console.print(SummaryTable(summary))

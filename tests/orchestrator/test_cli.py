@@ -2,6 +2,7 @@
 
 import json
 import re
+import signal
 import subprocess
 import sys
 import sysconfig
@@ -217,6 +218,28 @@ def test_the_scenario_as_run_gives_the_same_run(short_run):
     assert not (folder / "again" / "figures").exists()
     one, two = read_record(folder / "out"), read_record(folder / "again")
     np.testing.assert_array_equal(one["force"].values, two["force"].values)
+
+
+def test_an_interrupted_run_keeps_what_was_simulated(short_run):
+    folder, _ = short_run
+    command = [str(Path(sysconfig.get_path("scripts")) / "bladeloss"), "run", "short.toml", "--end", "100"]
+    with subprocess.Popen(
+        [*command, "--out", "cut", "--no-figures"],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        for said in process.stdout:
+            if said.startswith("time loop"):
+                break
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate()
+    assert process.returncode == exit_status.STATUS[Outcome.INTERRUPTED], errors
+    assert "interrupted" in errors and "Traceback" not in errors
+    assert not (folder / "cut").exists()
+    if (folder / "cut-partial").exists():  # absent when the signal came before the second record
+        assert "interrupted" in (folder / "cut-partial" / "PARTIAL.txt").read_text()
 
 
 def failing(outcome, end):

@@ -1,0 +1,26 @@
+"""Ctrl-C is held back until a macro step is complete."""
+
+import signal
+
+import pytest
+
+from orchestrator.interrupt import interrupt_between_steps
+from orchestrator.simulate import Stage
+
+
+def test_the_next_report_raises_and_the_handler_is_restored():
+    before, seen = signal.getsignal(signal.SIGINT), []
+    with interrupt_between_steps(lambda stage, time: seen.append(time)) as report:
+        report(Stage.RUN, 0.1)
+        signal.raise_signal(signal.SIGINT)  # as inside a call of a unit: nothing happens yet
+        seen.append("in a call")
+        with pytest.raises(KeyboardInterrupt):
+            report(Stage.RUN, 0.2)
+    assert seen == [0.1, "in a call", 0.2]
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_interrupt_is_not_held_back():
+    with interrupt_between_steps(lambda stage, time: None), pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
