@@ -23,6 +23,7 @@ from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import aligned_positions, carry, evaluate, tilted_positions
 from orchestrator.parameters import offset_names, start_names
 from orchestrator.system import System
+from orchestrator.unit import Unit
 from rotor_fmu.train import BearingSeat
 
 Array = NDArray[np.float64]
@@ -96,6 +97,8 @@ def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes
     residual = np.array([[seat.residual_tilt_x, seat.residual_tilt_y] for seat in seats])
     system.set_speed(speed)
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
+    if not np.all(np.isfinite(loads)):
+        raise EquilibriumError(f"rotor: no target loads: {_reason(system.rotor)}")
     if not np.all(loads > 0.0):
         worst = int(np.argmin(loads))
         raise EquilibriumError(f"{seats[worst].name}: target load {loads[worst]:.4g} N; allowed is > 0")
@@ -132,7 +135,8 @@ def apply_start(system: System, start: Start) -> None:
     for part, values in (("", start.static), ("_cos", start.cosine), ("_sin", start.sine)):
         system.rotor.set_real(start_names(bearings, part), values)
     system.laws[:] = 0.0
-    system.rotor_group.push()
+    for group in system.groups:
+        group.push()
     system.rotor_group.fetch()
     for group in (system.bearing_group, system.rotor_group):
         group.feed()
@@ -146,8 +150,7 @@ def _rest_under(system: System, laws: Array) -> Array:
     system.rotor_group.fetch()
     journals = system.journals[:, :4].copy()
     if not np.all(np.isfinite(journals)):
-        reason = system.rotor.messages[-1] if system.rotor.messages else "no reason logged"
-        raise EquilibriumError(f"rotor: no shape under the bearings' wrenches: {reason}")
+        raise EquilibriumError(f"rotor: no shape under the bearings' wrenches: {_reason(system.rotor)}")
     return journals
 
 
@@ -202,8 +205,8 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         evaluate(system, positions)
         if not np.all(np.isfinite(system.responses)):
             worst = int(np.argmin(np.isfinite(system.responses).all(axis=1)))
-            reason = (system.bearings[worst].messages or ("no reason logged",))[-1]
-            raise EquilibriumError(f"{system.bearings[worst].name}: no film at the trial position: {reason}")
+            unit = system.bearings[worst]
+            raise EquilibriumError(f"{unit.name}: no film at the trial position: {_reason(unit)}")
         step = _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]]) - positions
         size = np.abs(step / measure)
         if size.max() < TOLERANCE:
@@ -214,6 +217,10 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         f"{system.bearings[worst].name}: after {NEWTON_STEPS} Newton steps the journal still moves by "
         f"{size.max():.3g} of its clearance"
     )
+
+
+def _reason(unit: Unit) -> str:
+    return unit.messages[-1] if unit.messages else "no reason logged"
 
 
 def _line(system: System, nodes: int) -> Array:

@@ -53,6 +53,7 @@ class Group:
         self._graph = graph
         self._targets = np.concatenate([m.targets for m in members])
         self._sources = np.concatenate([m.sources for m in members])
+        self._feeds = tuple(m.linked.set for m in members if m.linked is not None)
         self._sets = tuple(m.inputs.set for m in members)
         self._gets = tuple(m.outputs.get for m in members)
         self.step_time = 0.0
@@ -62,11 +63,12 @@ class Group:
         """Move the newest outputs along the connections into the inputs of these units."""
         start = perf_counter()
         self._graph.inputs[self._targets] = self._graph.outputs[self._sources]
-        self.push()
+        for call in self._feeds:
+            call()
         self.exchange_time += perf_counter() - start
 
     def push(self) -> None:
-        """Give these units their inputs as they stand in `Graph.inputs`."""
+        """Give these units all their inputs as they stand in `Graph.inputs`, connected or not."""
         for call in self._sets:
             call()
 
@@ -108,6 +110,8 @@ class Member:
         The instance.
     inputs, outputs : Block
         Its stretches of the graph's two arrays.
+    linked : Block or None
+        The part of the inputs from the first to the last with a connection.
     targets, sources : ndarray of int
         The connections into it: ``graph.inputs[targets] = graph.outputs[sources]``.
     """
@@ -115,6 +119,7 @@ class Member:
     unit: Unit
     inputs: Block
     outputs: Block
+    linked: Block | None
     targets: NDArray[np.intp]
     sources: NDArray[np.intp]
 
@@ -165,11 +170,20 @@ class Graph:
                 unit,
                 Block(unit, input_names, own_inputs),
                 Block(unit, output_names, own_outputs),
+                self._linked(unit, input_names, first_input, pairs[:, 0]),
                 pairs[:, 0].copy(),
                 pairs[:, 1].copy(),
             )
             first_input += len(input_names)
             first_output += len(output_names)
+
+    def _linked(
+        self, unit: Unit, names: Sequence[str], first: int, targets: NDArray[np.intp]
+    ) -> Block | None:
+        if not len(targets):
+            return None
+        low, high = int(targets.min()), int(targets.max()) + 1
+        return Block(unit, names[low - first : high - first], self.inputs[low:high])
 
     def group(self, names: Iterable[str]) -> Group:
         """Return the units of these names as a group."""

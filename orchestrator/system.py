@@ -98,7 +98,7 @@ class System:
         return self.responses[:, _FORCE]
 
     def set_speed(self, speed: float) -> None:
-        """Give every unit the rotor speed in rad/s with its next inputs."""
+        """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
         self._rotor_speed[0] = speed
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
 

@@ -39,6 +39,7 @@ def begin(system):
     for unit in system.units:
         unit.enter_initialization()
     for group in system.groups:
+        group.push()
         group.feed()
         group.fetch()
     for unit in system.units:

@@ -35,7 +35,7 @@ def test_speed_reaches_every_unit(store, toy_fmus):
     assert system.bearing_inputs[0, 16] == pytest.approx(port.NOMINAL_SPEED, rel=1e-15)
     system.set_speed(12.0)
     for group in system.groups:
-        group.feed()
+        group.push()
     assert [unit.get_real(["speed"])[0] for unit in system.units] == [12.0, 12.0, 12.0]
     system.close()
 
