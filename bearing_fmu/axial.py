@@ -54,6 +54,10 @@ class AxialBasis:
         """Weights of integrals of products of two z-derivatives, for slopes by t, shape (rows + 2,)."""
         return self.weights / self.stretch**2
 
+    def place(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Map of the points t in [-1, 1]."""
+        return np.tanh(self.clustering * t) / np.tanh(self.clustering)
+
     def interpolation(self, z: NDArray[np.float64]) -> NDArray[np.float64]:
         """Values of the basis functions (columns) at the points z in [-1, 1] (rows)."""
         t = np.arctanh(np.asarray(z) * np.tanh(self.clustering)) / self.clustering

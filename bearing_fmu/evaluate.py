@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from bearing_fmu.aligned import AlignedFilm, solve_aligned
 from bearing_fmu.compiled import kernel
 from bearing_fmu.contact import CONTACT_RESULTS, add_slice, add_tilted, sliding_sense
-from bearing_fmu.outputs import NO_SOLUTION, STATE, relative_state, write_outputs
+from bearing_fmu.outputs import STATE, relative_state, write_outputs
 from bearing_fmu.reynolds import solve_pressure
 from bearing_fmu.short import solve_short
+from bearing_fmu.status import NO_SOLUTION, OK
 from bearing_fmu.tangent import add_tangent
 from bearing_fmu.tilted_film import RESULTS, TiltedFilm
 
@@ -26,17 +27,24 @@ WORK = STATE + RESULTS + CONTACT_RESULTS
 
 @kernel
 def evaluate_v1(
-    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: TiltedFilm, work: Floats
+    inputs: Floats,
+    offset: Floats,
+    out: Floats,
+    constants: Constants,
+    table: Floats,
+    film: TiltedFilm,
+    work: Floats,
 ) -> int:
     """V1: Reynolds equation and contact over the tilted gap."""
     scales = constants[0]
     state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
-    if status != 0:
+    if status != OK:
         return status
     speed, q, v = inputs[16], state[4:8], state[8:12]
-    if not solve_pressure(film, q, v, speed, scales.ambient, scales.sigma, result):
-        return NO_SOLUTION
+    status = solve_pressure(film, q, v, speed, scales.ambient, scales.sigma, scales.ruptures, result)
+    if status != OK:
+        return status
     add_tangent(film, q, v, speed, result)
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
@@ -46,16 +54,22 @@ def evaluate_v1(
 
 @kernel
 def evaluate_v2(
-    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: AlignedFilm, work: Floats
+    inputs: Floats,
+    offset: Floats,
+    out: Floats,
+    constants: Constants,
+    table: Floats,
+    film: AlignedFilm,
+    work: Floats,
 ) -> int:
     """V2: Reynolds equation and contact over the aligned gap."""
     scales = constants[0]
     state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
-    if status != 0:
+    if status != OK:
         return status
-    speed = inputs[16]
-    if not solve_aligned(film, state[4:8], state[8:12], speed, scales.ambient, scales.sigma, result):
+    speed, q, v = inputs[16], state[4:8], state[8:12]
+    if not solve_aligned(film, q, v, speed, scales.ambient, scales.sigma, result):
         return NO_SOLUTION
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
@@ -65,16 +79,22 @@ def evaluate_v2(
 
 @kernel
 def evaluate_v3(
-    inputs: Floats, offset: Floats, out: Floats, constants: Constants, table: Floats, film: Floats, work: Floats
+    inputs: Floats,
+    offset: Floats,
+    out: Floats,
+    constants: Constants,
+    table: Floats,
+    film: Floats,
+    work: Floats,
 ) -> int:
     """V3: short bearing and contact over the aligned gap."""
     scales = constants[0]
     state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
     status = relative_state(scales, inputs, offset, state)
-    if status != 0:
+    if status != OK:
         return status
-    speed = inputs[16]
-    solve_short(state[4:8], state[8:12], speed, scales.ambient, scales.sigma, scales.slenderness, film, result)
+    speed, q, v = inputs[16], state[4:8], state[8:12]
+    solve_short(q, v, speed, scales.ambient, scales.sigma, scales.slenderness, film, result)
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
     add_slice(scales, table, state[0], state[1], 0.0, scales.width, grip, contact)

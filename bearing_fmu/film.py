@@ -88,9 +88,16 @@ class Film:
         Modelling depth.
     parameters : BearingParameters
         The bearing.
+
+    Raises
+    ------
+    ValueError
+        A boundary condition that the depth does not have.
     """
 
     def __init__(self, depth: Depth, parameters: BearingParameters) -> None:
+        if parameters.boundary != "guembel" and depth is not Depth.V1:
+            raise ValueError(f"bearing parameter boundary = {parameters.boundary!r} needs depth 'v1'")
         self.depth = depth
         self.parameters = parameters
         self._kernel: Callable[..., int]

@@ -34,7 +34,8 @@ def flow_gap(h: float, sigma: float) -> tuple[float, float, float]:
         return RESIDUAL * sigma, 0.0, 0.0
     x2 = x * x
     below = 0.5 + 35.0 / 32.0 * x * (1.0 - x2 * (1.0 - x2 * (0.6 - x2 / 7.0)))
-    open_part = 0.5 * (x + 1.0) + 35.0 / 32.0 * x2 * (0.5 - x2 * (0.25 - x2 * (0.1 - x2 / 56.0))) - 93.0 / 256.0
+    even = x2 * (0.5 - x2 * (0.25 - x2 * (0.1 - x2 / 56.0)))
+    open_part = 0.5 * (x + 1.0) + 35.0 / 32.0 * even - 93.0 / 256.0
     return sigma * (RESIDUAL + 3.0 * open_part), below, 35.0 / 96.0 * (1.0 - x2) ** 3 / sigma
 
 

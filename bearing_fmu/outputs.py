@@ -9,7 +9,7 @@ from bearing_fmu.compiled import inner_kernel
 from bearing_fmu.contact import FORCE, FORCE_SLOPE, LOAD
 from bearing_fmu.gap import least_gap
 from bearing_fmu.scales import Scales
-from bearing_fmu.status import FilmStatus
+from bearing_fmu.status import NO_SOLUTION, NOT_FINITE, OK
 from bearing_fmu.tilted_film import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
 
 Floats = NDArray[np.float64]
@@ -18,9 +18,6 @@ INPUTS, STATE = 17, 12
 # Where the groups of the port's outputs begin.
 OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
 
-NOT_FINITE = int(FilmStatus.NOT_FINITE)
-NO_SOLUTION = int(FilmStatus.NO_SOLUTION)
-OK = int(FilmStatus.OK)
 
 
 @inner_kernel

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from math import inf, isfinite
 
 #: Admissible range of each parameter, ends included unless the range is open there.
@@ -18,6 +18,7 @@ _RANGES: dict[str, tuple[float, float, str]] = {
     "columns": (16, 512, "an integer from 16 to 512"),
     "rows": (3, 30, "an integer from 3 to 30"),
 }
+_BOUNDARIES = ("guembel", "reynolds")
 _POSITIVE = ("diameter", "width", "clearance", "viscosity")
 _INTEGER = ("columns", "rows")
 
@@ -45,6 +46,9 @@ class BearingParameters:
         Coulomb coefficient of the solid contact.
     columns, rows : int
         Resolution of the film around the circumference and along the axis.
+    boundary : str
+        Where the film ruptures: "guembel" (negative pressure zeroed, the port's condition) or "reynolds"
+        (pressure and its gradient vanish together), which V1 alone offers, at some five times the effort.
 
     Raises
     ------
@@ -62,11 +66,14 @@ class BearingParameters:
     friction: float = 0.0
     columns: int = 48
     rows: int = 8
+    boundary: str = "guembel"
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            key, value = field.name, getattr(self, field.name)
-            low, high, allowed = _RANGES[key]
+        if self.boundary not in _BOUNDARIES:
+            allowed = " or ".join(repr(b) for b in _BOUNDARIES)
+            raise ValueError(f"bearing parameter boundary = {self.boundary!r}: must be {allowed}")
+        for key, (low, high, allowed) in _RANGES.items():
+            value = getattr(self, key)
             valid = isfinite(value) and low <= value <= high
             if key in _POSITIVE:
                 valid = valid and value > 0.0

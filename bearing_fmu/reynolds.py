@@ -23,6 +23,8 @@ from bearing_fmu.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.grid import COS, METRIC, SIN, grade, place
 from bearing_fmu.guembel import bearing_part
 from bearing_fmu.ring import factorise, substitute
+from bearing_fmu.rupture import ROUNDS, hold, move_rupture, release
+from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 from bearing_fmu.tilted_film import (
     ABSOLUTE,
     CONDUCTANCE,
@@ -194,8 +196,15 @@ def _peak(film: TiltedFilm, ambient: float) -> float:
 
 @stage
 def solve_pressure(
-    film: TiltedFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
-) -> bool:
+    film: TiltedFilm,
+    q: Floats,
+    v: Floats,
+    speed: float,
+    ambient: float,
+    sigma: float,
+    ruptures: int,
+    result: Floats,
+) -> int:
     """Solve for the pressure and integrate it.
 
     Parameters
@@ -210,22 +219,34 @@ def solve_pressure(
         Ambient pressure over 6 eta R^2 / C^2, 1/s.
     sigma : float
         Roughness over clearance.
+    ruptures : int
+        1 for Reynolds' condition, 0 for Guembel's.
     result : ndarray, shape (RESULTS,)
         Wrench, largest pressure and shear integral are written.
 
     Returns
     -------
-    bool
-        False where the system has no finite solution.
+    int
+        A code of `FilmStatus`.
     """
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
-    _shape_gap(film, q, sigma)
-    _assemble(film, v, speed)
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
-    if not factorise(b, film.coupling, w, wt, film.block, film.row, m, n, width):
-        return False
-    substitute(b, film.coupling, w, wt, film.sides, film.row, m, n, width, 1)
-    unfold(film, 0, 0, 1)
-    _integrate(film, ambient, result)
-    return True
+    _shape_gap(film, q, sigma)
+    release(film)
+    status = NOT_CONVERGED
+    for attempt in range(ROUNDS):
+        _assemble(film, v, speed)
+        if ruptures != 0:
+            hold(film, ambient)
+        if not factorise(b, film.coupling, w, wt, film.block, film.row, m, n, width):
+            status = NO_SOLUTION
+            break
+        substitute(b, film.coupling, w, wt, film.sides, film.row, m, n, width, 1)
+        unfold(film, 0, 0, 1)
+        if ruptures == 0 or not move_rupture(film, ambient, attempt):
+            status = OK
+            break
+    if status == OK:
+        _integrate(film, ambient, result)
+    return status

@@ -99,7 +99,16 @@ def factorise(
 
 @kernel
 def substitute(
-    b: Floats, c: Floats, w: Floats, wt: Floats, x: Floats, y: Floats, count: int, n: int, width: int, sides: int
+    b: Floats,
+    c: Floats,
+    w: Floats,
+    wt: Floats,
+    x: Floats,
+    y: Floats,
+    count: int,
+    n: int,
+    width: int,
+    sides: int,
 ) -> None:
     """Solve for `sides` right-hand sides with the factor of `factorise`.
 

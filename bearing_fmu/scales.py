@@ -29,6 +29,7 @@ SCALES = np.dtype(
         ("contact_step", np.float64),  # its spacing, m
         ("closes", np.int64),  # status where the gap is below the deepest one
         ("aligned", np.int64),  # 1 where tilts are ignored
+        ("ruptures", np.int64),  # 1 for Reynolds' condition, 0 for Guembel's
     ]
 )
 Scales: TypeAlias = Any  # a record of SCALES
@@ -55,6 +56,7 @@ def scales(parameters: BearingParameters, table: SliceTable, aligned: bool) -> N
         "contact_step": table.step,
         "closes": FilmStatus.TOO_DEEP if parameters.has_contact else FilmStatus.GAP_CLOSED,
         "aligned": aligned,
+        "ruptures": parameters.boundary == "reynolds",
     }
     for name, value in values.items():
         record[name] = value

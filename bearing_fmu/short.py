@@ -70,8 +70,10 @@ def capone(x: float, y: float, a: float, b: float, force: Floats, slope: Floats)
         dg = g_p * dp + g_r * dr
         dv = v_p * dp + v_r * dr
         ds = s_q * dq
-        part_x = 3.0 * (dx * v * rho + x * dv * rho + x * v * drho) + da * g + a * dg + 2.0 * (db * s + b * ds)
-        part_y = 3.0 * (dy * v * rho + y * dv * rho + y * v * drho) - db * g - b * dg + 2.0 * (da * s + a * ds)
+        part_x = 3.0 * (dx * v * rho + x * dv * rho + x * v * drho)
+        part_y = 3.0 * (dy * v * rho + y * dv * rho + y * v * drho)
+        part_x += da * g + a * dg + 2.0 * (db * s + b * ds)
+        part_y += 2.0 * (da * s + a * ds) - db * g - b * dg
         slope[0, k] = -(part_x + force[0] * dr) / rest
         slope[1, k] = -(part_y + force[1] * dr) / rest
 
@@ -154,7 +156,14 @@ def effective_state(q: Floats, v: Floats, sigma: float, state: Floats, jacobian:
 
 @inner_kernel
 def solve_short(
-    q: Floats, v: Floats, speed: float, ambient: float, sigma: float, ratio: float, film: Floats, result: Floats
+    q: Floats,
+    v: Floats,
+    speed: float,
+    ambient: float,
+    sigma: float,
+    ratio: float,
+    film: Floats,
+    result: Floats,
 ) -> None:
     """Wrench and tangent of the short bearing.
 
@@ -185,9 +194,9 @@ def solve_short(
         by_x, by_y = slope[i, 0] + speed * slope[i, 3], slope[i, 1] + speed * slope[i, 2]
         by_vx, by_vy = 2.0 * slope[i, 2], -2.0 * slope[i, 3]
         for k in range(2):
-            result[STIFFNESS + 4 * i + k] = unit * (
-                by_x * jacobian[0, k] + by_y * jacobian[1, k] + by_vx * jacobian[2, k] + by_vy * jacobian[3, k]
-            )
+            by_place = by_x * jacobian[0, k] + by_y * jacobian[1, k]
+            by_rate = by_vx * jacobian[2, k] + by_vy * jacobian[3, k]
+            result[STIFFNESS + 4 * i + k] = unit * (by_place + by_rate)
             result[DAMPING + 4 * i + k] = unit * (by_vx * jacobian[2, 2 + k] + by_vy * jacobian[3, 2 + k])
     result[PEAK] = ambient + 0.5 * ratio * max(largest_pressure(x, y, a, b), 0.0)
     result[SHEAR] = 4.0 * np.pi / np.sqrt(1.0 - x * x - y * y)

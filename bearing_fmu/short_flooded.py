@@ -41,7 +41,15 @@ def axial_integral(g: float, ambient: float) -> tuple[float, float]:
 
 @inner_kernel
 def flooded(
-    x: float, y: float, a: float, b: float, ambient: float, k: float, film: Floats, force: Floats, slope: Floats
+    x: float,
+    y: float,
+    a: float,
+    b: float,
+    ambient: float,
+    k: float,
+    film: Floats,
+    force: Floats,
+    slope: Floats,
 ) -> None:
     """Force of the flooded short bearing and its derivatives.
 

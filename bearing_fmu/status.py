@@ -27,6 +27,12 @@ class FilmStatus(IntEnum):
         return _ADVICE[self]
 
 
+# The same as plain numbers, for compiled code.
+OK, NOT_FINITE, NO_SOLUTION, NOT_CONVERGED = (
+    int(status)
+    for status in (FilmStatus.OK, FilmStatus.NOT_FINITE, FilmStatus.NO_SOLUTION, FilmStatus.NOT_CONVERGED)
+)
+
 _ADVICE = {
     FilmStatus.OK: "the film was evaluated",
     FilmStatus.NOT_FINITE: "an input or offset is NaN or infinite: look at the unit that sent it",

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.axial import CLUSTERING, axial_basis
+from bearing_fmu.axial import axial_basis
 from bearing_fmu.grid import RING_ROWS
 from bearing_fmu.vector import padded
 
@@ -41,6 +41,7 @@ class TiltedFilm(NamedTuple):
     column: Floats  #: (FIELDS, n + 2, m') at the columns
     face: Floats  #: (FIELDS, n, m') between the columns
     nodal: Floats  #: (4, n, m') bearing part of the pressure and its derivatives
+    held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     pressures: Floats  #: (5, 3 n + 2, m') the pressure and four adjoint ones
     forcing: Floats  #: (6, 3 n + 2, m') tangent of the residual and what it is made of
     blocks: Floats  #: (3, m n n') factor
@@ -64,13 +65,14 @@ def tilted_film(columns: int, rows: int, aspect: float) -> TiltedFilm:
         stiffness=basis.stiffness_weights() * aspect**2,
         slopes=basis.slopes.ravel(),
         products=products.ravel(),
-        fine=basis.interpolation(np.tanh(CLUSTERING * np.linspace(-1, 1, 4 * rows + 2)[1:-1]) / np.tanh(CLUSTERING)),
+        fine=basis.interpolation(basis.place(np.linspace(-1.0, 1.0, 4 * rows + 2)[1:-1])),
         circle=circle,
         rings=np.zeros((2, RING_ROWS, columns)),
         grading=np.zeros((6, 4)),
         column=np.zeros((FIELDS, rows + 2, length)),
         face=np.zeros((FIELDS, rows, length)),
         nodal=np.zeros((4, rows, length)),
+        held=np.zeros((rows, length)),
         pressures=np.zeros((5, 3 * rows + 2, length)),
         forcing=np.zeros((6, 3 * rows + 2, length)),
         blocks=np.zeros((3, columns * rows * width)),

@@ -55,8 +55,9 @@ def _sum_of_rows(keep: bool, sign: int) -> Any:
             undefined = ir.Constant(_VECTOR, ir.Undefined)
             with cgutils.for_range(builder, count_) as loop:
                 place = builder.add(x_at_, builder.mul(loop.index, x_step_))
-                factor = builder.insert_element(undefined, builder.load(builder.gep(factors, [place])), _FIRST)
-                splat = builder.shuffle_vector(factor, undefined, _SPLAT)
+                factor = builder.load(builder.gep(factors, [place]))
+                single = builder.insert_element(undefined, factor, _FIRST)
+                splat = builder.shuffle_vector(single, undefined, _SPLAT)
                 place = builder.add(a_at_, builder.mul(loop.index, a_step_))
                 product = builder.fmul(splat, builder.load(_row(builder, rows, place), align=8), flags=_FUSED)
                 combine = builder.fadd if sign > 0 else builder.fsub
