@@ -17,6 +17,9 @@ STATUS = {
 }
 """Exit status of each outcome; 130 is what shells give for an interrupt."""
 
+PROCESS_DIED = 8
+"""A run's own process ended without a result; its exit code or signal is said."""
+
 OTHER_OUTCOME = 7
 """For an outcome without a status of its own."""
 

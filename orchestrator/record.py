@@ -182,6 +182,8 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
             + [f"{name} {version(name)}" for name in ("bladeloss", "fmpy", "numpy", "scipy", "numba")]
         ),
     }
+    if scenario.analysed_bearing is not None:
+        attributes["analysed_bearing"] = scenario.analysed_bearing
     if scenario.event is not None:
         attributes["fracture_time"] = scenario.event.time
         attributes["fracture_wheel"] = scenario.event.wheel

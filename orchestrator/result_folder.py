@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -22,8 +22,15 @@ class ResultFolderError(OrchestratorError):
     """A folder that cannot take results."""
 
 
-def check_folder(folder: Path) -> None:
+def check_folder(folder: Path, sign: str = _SIGN) -> None:
     """Make sure that results can go to a folder, before hours are spent on them.
+
+    Parameters
+    ----------
+    folder : Path
+        Where they are to go.
+    sign : str
+        File by which an earlier result of the same kind is known.
 
     Raises
     ------
@@ -32,7 +39,7 @@ def check_folder(folder: Path) -> None:
     """
     if folder.exists() and not folder.is_dir():
         raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
-    if folder.is_dir() and any(folder.iterdir()) and not (folder / _SIGN).is_file():
+    if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():
         raise ResultFolderError(
             f"{folder}: holds files that are no earlier result; --out takes a new folder, an empty one or "
             "that of an earlier run"
@@ -48,13 +55,15 @@ def partial_folder(folder: Path) -> Path:
 
 
 @contextmanager
-def result_folder(folder: Path) -> Iterator[Path]:
+def result_folder(folder: Path, ours: Sequence[str] = _OURS) -> Iterator[Path]:
     """Write results into a temporary folder that takes its place at the end.
 
     Parameters
     ----------
     folder : Path
         Where the results go.  Results of an earlier run in it are replaced, other files stay.
+    ours : sequence of str
+        Files and folders of an earlier result.
 
     Yields
     ------
@@ -67,7 +76,7 @@ def result_folder(folder: Path) -> Iterator[Path]:
     try:
         yield temporary
         if folder.is_dir():
-            _replace(temporary, folder)
+            _replace(temporary, folder, ours)
         else:
             temporary.chmod(0o777 & ~_umask())
             temporary.rename(folder)
@@ -78,9 +87,9 @@ def result_folder(folder: Path) -> Iterator[Path]:
                 path.rmdir()
 
 
-def _replace(fresh: Path, folder: Path) -> None:
+def _replace(fresh: Path, folder: Path, ours: Sequence[str]) -> None:
     """Put the files of `fresh` into `folder` in place of those of an earlier run."""
-    for name in _OURS:
+    for name in ours:
         target = folder / name
         if target.is_dir():
             shutil.rmtree(target)

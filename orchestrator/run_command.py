@@ -112,20 +112,23 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     return status
 
 
+def write_data(result: Result, summary: RunSummary, scenario: Scenario, folder: Path) -> None:
+    """Write record, summary and scenario of a run, and the mark of a partial one."""
+    write_record(result.record, folder)
+    (folder / "summary.txt").write_text(to_text(summary), encoding="utf-8")
+    (folder / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+    (folder / "scenario.toml").write_text(scenario_toml(scenario), encoding="utf-8")
+    if not summary.finished:
+        reason = f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
+        (folder / PARTIAL).write_text(reason, encoding="utf-8")
+
+
 def _write(
     result: Result, summary: RunSummary, scenario: Scenario, train: Train, request: RunRequest, folder: Path
 ) -> None:
     """Write what a run leaves behind: first the data, all or nothing, then the figures likewise."""
     with result_folder(folder) as fresh:
-        write_record(result.record, fresh)
-        (fresh / "summary.txt").write_text(to_text(summary), encoding="utf-8")
-        (fresh / "summary.json").write_text(summary.to_json(), encoding="utf-8")
-        (fresh / "scenario.toml").write_text(scenario_toml(scenario), encoding="utf-8")
-        if not summary.finished:
-            reason = (
-                f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
-            )
-            (fresh / PARTIAL).write_text(reason, encoding="utf-8")
+        write_data(result, summary, scenario, fresh)
     if request.formats and summary.phases:
         with result_folder(folder / FIGURES) as fresh:
             write_figures(

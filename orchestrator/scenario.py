@@ -13,7 +13,7 @@ from typing import Annotated, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field
 
 Depth = Literal["v1", "v2", "v3"]
-Reduction = Literal["irs", "guyan", "craig-bampton", "none"]
+Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 CouplingName = Literal["linear-implicit", "gauss-seidel", "jacobi"]
 
 DEPTHS: tuple[str, ...] = get_args(Depth)
@@ -139,6 +139,8 @@ class Scenario(_Model):
         Resolution of the films.
     record : RecordSettings
         What is kept.
+    analysed_bearing : str or None
+        Name of the bearing that summary and figures show; None takes the most loaded one.
     folder : Path
         Folder of the scenario's file, from which a relative train path counts. Not a key of the file.
     """
@@ -155,6 +157,7 @@ class Scenario(_Model):
     coupling: CouplingName = "linear-implicit"
     film: FilmResolution = FilmResolution()
     record: RecordSettings = RecordSettings()
+    analysed_bearing: str | None = None
     folder: Path = Field(default=Path(), exclude=True)
 
     def depth_of(self, bearing: str) -> str:

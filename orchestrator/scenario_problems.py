@@ -62,6 +62,9 @@ def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[str]:
     for name in _table(_table(raw, "unbalance"), "at"):
         if name not in wheels:
             yield f"unbalance.at.{name}: no such wheel; {_choice(name, wheels)}"
+    analysed = raw.get("analysed_bearing")
+    if isinstance(analysed, str) and analysed not in bearings:
+        yield f"analysed_bearing = {analysed!r}: no such bearing; {_choice(analysed, bearings)}"
     wheel = _table(raw, "event").get("wheel")
     if isinstance(wheel, str) and wheel not in wheels:
         yield f"event.wheel = {wheel!r}: no such wheel; {_choice(wheel, wheels)}"

@@ -152,3 +152,11 @@ def test_the_toml_text_quotes_what_needs_quoting(scenario_file):
     odd = 'a "quoted" \\ title\twith\nlines'
     scenario = with_overrides(load_scenario(scenario_file(GOOD)), {"title": odd})
     assert tomllib.loads(scenario_toml(scenario))["title"] == odd
+
+
+def test_the_analysed_bearing_is_one_of_the_train(scenario_file):
+    path = scenario_file(GOOD + 'analysed_bearing = "rear"\n')
+    assert load_scenario(path).analysed_bearing == "rear"
+    assert 'analysed_bearing = "rear"' in scenario_toml(load_scenario(path))
+    (problem,) = problems(path, analysed_bearing="raer")
+    assert problem.startswith("analysed_bearing = 'raer': no such bearing; did you mean 'rear'?")
