@@ -47,26 +47,27 @@ class TurbineDesign:
     viscosity, ambient_pressure, roughness, contact_modulus, friction : float
         Of all bearings.
     hp_balance, lp_balance, generator_balance, exciter_balance : float
-        Nominal unbalance as a multiple of the balance grade.
+        Nominal unbalance as a multiple of the balance grade. That of an LP rotor is a couple: the wheels
+        of one flow against those of the other, the middle wheel without.
     """
 
-    lp_core_diameter: float = 1.16
-    lp_wheel_mass: float = 30.9e3
+    lp_core_diameter: float = 1.11
+    lp_wheel_mass: float = 32.1e3
     hp_core_diameter: float = 0.95
     hp_wheel_mass: float = 5.0e3
     generator_winding_mass: float = 8.0e3
     hp: JournalDesign = JournalDesign(0.50, 0.80, 2.0e-3)
-    lp: JournalDesign = JournalDesign(0.80, 0.80, 2.155e-3, 6e-5)
+    lp: JournalDesign = JournalDesign(0.80, 0.80, 2.155e-3, 5.8e-5)
     generator: JournalDesign = JournalDesign(0.70, 0.80, 2.0e-3)
     exciter: JournalDesign = JournalDesign(0.45, 0.60, 2.5e-3)
-    viscosity: float = 0.0242
+    viscosity: float = 0.02415
     ambient_pressure: float = 0.0
     roughness: float = 3e-6
     contact_modulus: float = 1e9
     friction: float = 0.1
     hp_balance: float = 0.3
-    lp_balance: float = 0.7
-    generator_balance: float = 9.6
+    lp_balance: float = 0.95
+    generator_balance: float = 10.2
     exciter_balance: float = 1.0
 
 
@@ -222,7 +223,9 @@ def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float)
         lathe.turn(core - 0.060, 175)  # relief between the seats
         lathe.turn(seat, 200)
         diameter = 2.4 + 0.3 * flow
-        lathe.wheel(f"{name}-{number}", design.lp_wheel_mass, diameter, 0.5, design.lp_balance, phase)
+        balance = design.lp_balance if flow else 0.0
+        side = phase if number <= 5 else phase + math.pi
+        lathe.wheel(f"{name}-{number}", design.lp_wheel_mass, diameter, 0.5, balance, side)
         lathe.turn(seat, 200)
         lathe.turn(core - 0.060, 175)
     for part in outwards:

@@ -68,7 +68,7 @@ class TestTheTurbine:
         assert per_rotor == [2, 2, 2, 2, 2, 1]
         for lp in ("LP1", "LP2", "LP3"):
             assert sum(w.name.startswith(f"{lp}-") for w in turbine.wheels) == 9
-        assert 0.9e6 < turbine.mass < 1.4e6
+        assert 0.9e6 < turbine.mass < 1.45e6
 
     def test_bearings_are_plausible(self, turbine):
         from rotor_fmu.statics import target_loads
@@ -76,8 +76,8 @@ class TestTheTurbine:
         loads = target_loads(turbine)
         numbers = [b.sommerfeld(f, turbine.speed) for b, f in zip(turbine.bearings, loads, strict=True)]
         assert all(1.0 < so < 5.0 for so in numbers)
-        assert loads[2:8] == pytest.approx([1.8e6] * 6, rel=0.02)
-        assert numbers[2:8] == pytest.approx([4.3] * 6, rel=0.02)
+        assert loads[2:8] == pytest.approx([1.8e6] * 6, rel=0.03)
+        assert numbers[2:8] == pytest.approx([4.3] * 6, rel=0.03)
 
     def test_rigid_wheels_have_possible_inertias(self, turbine):
         for wheel in turbine.wheels:
@@ -90,8 +90,9 @@ class TestTheTurbine:
         by_name = dict(zip((w.name for w in turbine.wheels), turbine.nominal_unbalance, strict=True))
         _, lp, _, _, generator, _ = turbine.section_masses
         assert sum(turbine.section_masses) == pytest.approx(turbine.mass, rel=1e-12)
-        assert by_name["LP1-9"] == pytest.approx(0.7 * eccentricity * lp / 9.0)
-        assert by_name["GEN-3"] == pytest.approx(9.6 * eccentricity * generator / 5.0)
+        assert by_name["LP1-9"] == pytest.approx(0.95 * eccentricity * lp / 9.0)
+        assert by_name["LP1-5"] == 0.0
+        assert by_name["GEN-3"] == pytest.approx(10.2 * eccentricity * generator / 5.0)
 
     @pytest.mark.parametrize("core", [1.05, 1.16, 1.30])
     def test_other_designs_keep_the_size(self, core):
