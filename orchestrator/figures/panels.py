@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 BEFORE_REVOLUTIONS = 2.0
 AFTER_REVOLUTIONS = 6.0
+_LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
 _DEFAULT_SPAN = 0.04  # s of a revolution at 25 Hz, for records that do not tell their speed
 
 
@@ -220,6 +221,13 @@ def scale_panels(
         grid[0].set_ylim(low - below * (high - low), high + above * (high - low))
 
 
+def _legend_columns(figure: Figure, labels: Sequence[str]) -> int:
+    """As many columns as the longest label leaves room for."""
+    widest = max((len(label) for label in labels), default=1)
+    column = _LETTER * widest + _HANDLE
+    return max(1, min(len(labels), int(figure.get_size_inches()[0] / column)))
+
+
 def legend_below(figure: Figure, axes: Sequence[Axes]) -> None:
     """One legend for the whole figure, outside the panels; each label once."""
     entries: dict[str, Artist] = {}
@@ -230,7 +238,7 @@ def legend_below(figure: Figure, axes: Sequence[Axes]) -> None:
         list(entries.values()),
         list(entries),
         loc="outside lower center",
-        ncols=min(len(entries), 5),
+        ncols=_legend_columns(figure, list(entries)),
         frameon=False,
         fontsize=style.FONT,
     )

@@ -1,0 +1,190 @@
+"""``bladeloss compare``: one scenario at every depth, against the paper's figures and table."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+
+from orchestrator import exit_status
+from orchestrator.comparison.processes import DIED, cores, run_all
+from orchestrator.comparison.progress import show_runs
+from orchestrator.comparison.report import Comparison, Settings, compare, to_csv, to_json
+from orchestrator.comparison.runs import gather
+from orchestrator.comparison.table import ComparisonTable, to_text
+from orchestrator.comparison.worker import Ended, Task, Work, simulate_task
+from orchestrator.figures.write import write_figures
+from orchestrator.fmu_folder import ensure_fmus
+from orchestrator.outcome import Outcome
+from orchestrator.record_files import RECORD_FILE, read_record
+from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
+from orchestrator.scenario import DEPTHS
+from orchestrator.scenario_file import load_scenario, train_of, with_overrides
+from orchestrator.statistics import analysed_bearing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from orchestrator.scenario import Scenario
+    from rotor_fmu.train import Train
+
+CHECK = "check"
+"""Folder of the runs at the finer resolution."""
+SIGN = "comparison.json"
+"""File by which an earlier comparison is known."""
+_OURS = ("comparison.txt", SIGN, "comparison.csv", *DEPTHS, CHECK, FIGURES, PARTIAL)
+
+
+@dataclass(frozen=True)
+class CompareRequest:
+    """What the command line asks for.
+
+    Attributes
+    ----------
+    source : str
+        Name of a bundled scenario or path of a TOML file.
+    overrides : mapping
+        Values in place of the scenario's, in the shape of the file.
+    out : Path or None
+        Folder of the results; None: ``results/<scenario>-compare``.
+    fmus : Path
+        Folder of the FMUs.
+    jobs : int or None
+        Runs at the same time; None: one a core.
+    check : bool
+        Repeat with twice the film resolution and half the macro step.
+    formats : sequence of str
+        File types of the figures; none for no figures.
+    """
+
+    source: str
+    overrides: Mapping[str, Any] = field(default_factory=dict)
+    out: Path | None = None
+    fmus: Path = Path("fmus")
+    jobs: int | None = None
+    check: bool = False
+    formats: Sequence[str] = ("png",)
+
+
+@dataclass(frozen=True)
+class _Compared:
+    """A comparison and the records it was made from, the finished and the partial ones."""
+
+    comparison: Comparison
+    records: Sequence[xr.Dataset]
+
+
+def run(request: CompareRequest, console: Console, errors: Console, *, work: Work = simulate_task) -> int:
+    """Run a scenario at every depth, write figures, table and conclusions, say what came out.
+
+    Parameters
+    ----------
+    request : CompareRequest
+        What to compare.
+    console, errors : rich.console.Console
+        For output and for what went wrong.
+    work : callable
+        What the process of a run does, see `orchestrator.comparison.worker`.
+
+    Returns
+    -------
+    int
+        Exit status: 0 when every run finished, whatever the verdicts; otherwise that of the
+        first run that did not, see `orchestrator.exit_status`.
+
+    Raises
+    ------
+    OrchestratorError
+        For anything wrong with the input; nothing is written then.
+    """
+    scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
+    refined = refine(scenario) if request.check else None
+    train = train_of(scenario)
+    folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
+    check_folder(folder, SIGN)
+    ensure_fmus(request.fmus, train, set(DEPTHS), console)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=f".{folder.name}-runs-", dir=folder.parent) as place:
+        runs = Path(place)
+        found = _compare(scenario, train, request, runs, console, work)
+        fine = None
+        if refined is not None and found.comparison.complete:
+            console.print(f"Check with {_settings(refined).text()}", highlight=False)
+            fine = _compare(refined, train, request, runs / CHECK, console, work)
+        pair = found.comparison, fine.comparison if fine else None
+        console.print(ComparisonTable(*pair))
+        failed = [(name, end) for one in pair if one for name, end in one.ended.items() if not end.ok]
+        target = partial_folder(folder) if failed else folder
+        if found.records:
+            with result_folder(target, _OURS) as fresh:
+                _write(pair, runs, fresh)
+    if found.records:
+        if request.formats:
+            bearing = found.comparison.runs.seat.name
+            with result_folder(target / FIGURES) as fresh:
+                write_figures(found.records, fresh, train=train, bearing=bearing, formats=request.formats)
+        kind = "Partial results" if failed else "Results"
+        console.print(f"\n{kind} in {target}", highlight=False, soft_wrap=True)
+    for name, end in failed:
+        errors.print(f"[red]error:[/red] {name} not finished: {end.text()}", highlight=False, soft_wrap=True)
+    return status_of(failed[0][1]) if failed else 0
+
+
+def refine(scenario: Scenario) -> Scenario:
+    """The scenario with twice the film resolution and half the macro step."""
+    film = {"columns": 2 * scenario.film.columns, "rows": 2 * scenario.film.rows}
+    return with_overrides(scenario, {"film": film, "step": scenario.step / 2})
+
+
+def status_of(end: Ended) -> int:
+    """Exit status of a run that has ended."""
+    if end.outcome == DIED:
+        return exit_status.PROCESS_DIED
+    return exit_status.of_outcome(next(outcome for outcome in Outcome if outcome.value == end.outcome))
+
+
+def _settings(scenario: Scenario) -> Settings:
+    return Settings(scenario.step, scenario.film.columns, scenario.film.rows, scenario.end)
+
+
+def _compare(
+    scenario: Scenario, train: Train, request: CompareRequest, folder: Path, console: Console, work: Work
+) -> _Compared:
+    tasks = [
+        Task(depth, with_overrides(scenario, {"depth": depth}), request.fmus.absolute(), folder / depth)
+        for depth in DEPTHS
+    ]
+    with show_runs(DEPTHS, scenario.end, console) as show:
+        ended = run_all(tasks, min(request.jobs or cores(), len(tasks)), show, work=work)
+    records = {
+        task.name: read_record(task.folder) if (task.folder / RECORD_FILE).is_file() else None
+        for task in tasks
+    }
+    left = [record for record in records.values() if record is not None]
+    unfinished = {depth: "" if end.ok else end.text() for depth, end in ended.items()}
+    bearing = scenario.analysed_bearing or (analysed_bearing(left[0]) if left else train.bearings[0].name)
+    runs = gather(records, unfinished, bearing, scenario, train)
+    return _Compared(compare(scenario.title or scenario.train, _settings(scenario), runs, ended), left)
+
+
+def _write(pair: tuple[Comparison, Comparison | None], runs: Path, fresh: Path) -> None:
+    """Fill the folder of the results; the folders of the runs move there."""
+    comparison, fine = pair
+    (fresh / "comparison.txt").write_text(to_text(comparison, fine), encoding="utf-8")
+    (fresh / "comparison.csv").write_text(to_csv(comparison, fine), encoding="utf-8")
+    (fresh / SIGN).write_text(to_json(comparison, fine), encoding="utf-8")
+    failed = [
+        f"{name} {end.text()}\n{end.advice}\n"
+        for one in pair
+        if one is not None
+        for name, end in one.ended.items()
+        if not end.ok
+    ]
+    if failed:
+        (fresh / PARTIAL).write_text("".join(failed), encoding="utf-8")
+    for path in runs.iterdir():
+        path.rename(fresh / path.name)

@@ -1,0 +1,1 @@
+"""The same scenario at every modelling depth, held against the published figures."""
