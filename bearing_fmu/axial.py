@@ -94,11 +94,13 @@ def axial_basis(rows: int, clustering: float = CLUSTERING) -> AxialBasis:
     np.fill_diagonal(slopes, 0.0)
     np.fill_diagonal(slopes, -slopes.sum(axis=1))
     stretch = clustering / np.cosh(clustering * t) ** 2 / np.tanh(clustering)
+    weights = weights * stretch
+    weights *= 2.0 / weights.sum()  # integrates constants exactly, so that Petroff's loss is exact
     nodes = np.tanh(clustering * t) / np.tanh(clustering)
     order = np.r_[1 : rows + 1, 0, rows + 1]
     return AxialBasis(
         nodes=nodes[order],
-        weights=(weights * stretch)[order],
+        weights=weights[order],
         stretch=stretch[order],
         slopes=np.ascontiguousarray(slopes[order][:, 1:-1]),
         clustering=clustering,

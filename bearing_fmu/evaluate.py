@@ -1,7 +1,8 @@
 """Compiled evaluation of the port at each modelling depth.
 
 All kernels take the port's arrays, the bearing's constants and contact table, the film's work space
-and `work`, which holds in turn the relative state, the result of the film and that of the contact.
+and `work`, which holds in turn the relative state, the results of film and contact, and the draft of
+the output.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from bearing_fmu.aligned import AlignedFilm, solve_aligned
 from bearing_fmu.compiled import kernel
 from bearing_fmu.contact import CONTACT_RESULTS, add_slice, add_tilted, sliding_sense
-from bearing_fmu.outputs import STATE, relative_state, write_outputs
+from bearing_fmu.outputs import OUTPUTS, STATE, relative_state, write_outputs
 from bearing_fmu.reynolds import solve_pressure
 from bearing_fmu.short import solve_short
 from bearing_fmu.status import NO_SOLUTION, OK
@@ -22,7 +23,11 @@ from bearing_fmu.tilted_film import RESULTS, TiltedFilm
 Floats = NDArray[np.float64]
 Constants = NDArray[np.void]
 
-WORK = STATE + RESULTS + CONTACT_RESULTS
+# Where the parts of `work` begin.
+RESULT = STATE
+CONTACT = RESULT + RESULTS
+DRAFT = CONTACT + CONTACT_RESULTS
+WORK = DRAFT + OUTPUTS
 
 
 @kernel
@@ -37,7 +42,7 @@ def evaluate_v1(
 ) -> int:
     """V1: Reynolds equation and contact over the tilted gap."""
     scales = constants[0]
-    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
+    state, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
     status = relative_state(scales, inputs, offset, state)
     if status != OK:
         return status
@@ -49,7 +54,7 @@ def evaluate_v1(
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
     add_tilted(scales, table, state[:4], grip, contact)
-    return write_outputs(scales, inputs, state, result, contact, out)
+    return write_outputs(scales, inputs, state, result, contact, draft, out)
 
 
 @kernel
@@ -64,7 +69,7 @@ def evaluate_v2(
 ) -> int:
     """V2: Reynolds equation and contact over the aligned gap."""
     scales = constants[0]
-    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
+    state, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
     status = relative_state(scales, inputs, offset, state)
     if status != OK:
         return status
@@ -74,7 +79,7 @@ def evaluate_v2(
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
     add_slice(scales, table, state[0], state[1], 0.0, scales.width, grip, contact)
-    return write_outputs(scales, inputs, state, result, contact, out)
+    return write_outputs(scales, inputs, state, result, contact, draft, out)
 
 
 @kernel
@@ -89,7 +94,7 @@ def evaluate_v3(
 ) -> int:
     """V3: short bearing and contact over the aligned gap."""
     scales = constants[0]
-    state, result, contact = work[:STATE], work[STATE : STATE + RESULTS], work[STATE + RESULTS :]
+    state, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
     status = relative_state(scales, inputs, offset, state)
     if status != OK:
         return status
@@ -98,4 +103,4 @@ def evaluate_v3(
     contact[:] = 0.0
     grip = scales.friction * sliding_sense(speed, scales.radius)
     add_slice(scales, table, state[0], state[1], 0.0, scales.width, grip, contact)
-    return write_outputs(scales, inputs, state, result, contact, out)
+    return write_outputs(scales, inputs, state, result, contact, draft, out)

@@ -19,7 +19,6 @@ INPUTS, STATE = 17, 12
 OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
 
 
-
 @inner_kernel
 def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats) -> int:
     """Relative state of journal and bore, and whether it can be evaluated.
@@ -62,7 +61,7 @@ def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats
 
 @inner_kernel
 def write_outputs(
-    scales: Scales, inputs: Floats, state: Floats, result: Floats, contact: Floats, out: Floats
+    scales: Scales, inputs: Floats, state: Floats, result: Floats, contact: Floats, draft: Floats, out: Floats
 ) -> int:
     """Write the port's outputs.
 
@@ -74,36 +73,31 @@ def write_outputs(
         Film, dimensionless.
     contact : ndarray, shape (CONTACT_RESULTS,)
         Solid contact, SI.
+    draft : ndarray, shape (52,)
+        Work space.
     out : ndarray, shape (52,)
-        Port order; untouched where a result is not finite.
+        Port order; untouched where an output is not finite.
 
     Returns
     -------
     int
         A code of `FilmStatus`.
     """
-    probe = 0.0
-    for i in range(result.shape[0]):
-        probe += result[i] * 0.0
-    for i in range(contact.shape[0]):
-        probe += contact[i] * 0.0
-    if probe != 0.0:
-        return NO_SOLUTION
     half = 0.5 * scales.width
     slope = scales.force / scales.clearance
     speed = inputs[16]
     for i in range(4):
         lever = scales.force if i < 2 else scales.force * half
-        out[OUT_WRENCH + i] = lever * result[WRENCH + i] + contact[FORCE + i]
-        constant = out[OUT_WRENCH + i]
+        draft[OUT_WRENCH + i] = lever * result[WRENCH + i] + contact[FORCE + i]
+        constant = draft[OUT_WRENCH + i]
         for j in range(4):
             scale = slope * (1.0 if i < 2 else half) * (1.0 if j < 2 else half)
             k = -(scale * result[STIFFNESS + 4 * i + j] + contact[FORCE_SLOPE + 4 * i + j])
             c = -scale * result[DAMPING + 4 * i + j]
-            out[OUT_K + 4 * i + j] = k
-            out[OUT_C + 4 * i + j] = c
+            draft[OUT_K + 4 * i + j] = k
+            draft[OUT_C + 4 * i + j] = c
             constant += k * inputs[j] + c * inputs[4 + j]
-        out[OUT_F0 + i] = constant
+        draft[OUT_F0 + i] = constant
     least, z, centre = least_gap(state[4:8])
     # Film shear on the journal: Couette over the whole circumference, and Poiseuille, whose integral
     # over h/2 dp/dx is half the moment of the film force about the bore's axis.
@@ -111,17 +105,24 @@ def write_outputs(
     turning = x * result[1] - y * result[0] + half * (tx * result[3] - ty * result[2])
     couette = scales.viscosity * scales.radius**3 * half / scales.clearance * result[SHEAR] * speed * speed
     grip = scales.friction * abs(speed) * scales.radius * contact[LOAD]
-    out[OUT_GAP] = least * scales.clearance
-    out[OUT_GAP + 1] = centre * scales.clearance
-    out[OUT_GAP + 2] = z * half
-    out[OUT_GAP + 3] = result[PEAK] * scales.pressure
-    out[OUT_GAP + 4] = contact[LOAD]
+    draft[OUT_GAP] = least * scales.clearance
+    draft[OUT_GAP + 1] = centre * scales.clearance
+    draft[OUT_GAP + 2] = z * half
+    draft[OUT_GAP + 3] = result[PEAK] * scales.pressure
+    draft[OUT_GAP + 4] = contact[LOAD]
     for i in range(4):
-        out[OUT_GAP + 5 + i] = contact[FORCE + i]
-    out[OUT_GAP + 9] = couette + 0.5 * speed * scales.force * turning + grip
-    out[OUT_GAP + 10] = 1.0 - centre
-    load = np.hypot(out[0], out[1])
+        draft[OUT_GAP + 5 + i] = contact[FORCE + i]
+    draft[OUT_GAP + 9] = couette + 0.5 * speed * scales.force * turning + grip
+    draft[OUT_GAP + 10] = 1.0 - centre
+    load = np.hypot(draft[0], draft[1])
     area = 2.0 * scales.radius * scales.width
     rate = scales.viscosity * abs(speed) * area * (scales.radius / scales.clearance) ** 2
-    out[OUT_GAP + 11] = load / rate if rate > 0.0 else 0.0
+    draft[OUT_GAP + 11] = load / rate if rate > 0.0 else 0.0
+    probe = 0.0
+    for i in range(OUTPUTS):
+        probe += draft[i] * 0.0
+    if probe != 0.0:
+        return NO_SOLUTION
+    for i in range(OUTPUTS):
+        out[i] = draft[i]
     return OK
