@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from bearing_fmu.film import Depth, make_film
@@ -27,12 +28,16 @@ class BearingSlave(UnitSlave):
     ----------
     depth : str
         Modelling depth, a value of `Depth`.
+    starts : mapping, optional
+        Start values in place of the port's.
     **kwargs
         What pythonfmu passes.
     """
 
-    def __init__(self, depth: str, **kwargs: Any) -> None:
+    def __init__(self, depth: str, starts: Mapping[str, float] | None = None, **kwargs: Any) -> None:
         super().__init__(LAYOUT, **kwargs)
+        for name, value in (starts or {}).items():
+            self.values[LAYOUT[name]] = value
         self._depth = Depth(depth)
         self._offset = self.values[_OFFSET]
         self._outputs = self.values[LAYOUT.outputs]

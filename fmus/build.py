@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -69,8 +69,8 @@ def is_stale(path: Path, recipe: Recipe) -> bool:
     return guid_in(path) != f"{{{recipe.guid}}}"
 
 
-def bearing_recipe(depth: str) -> Recipe:
-    """Return the recipe of the bearing of one depth."""
+def bearing_recipe(depth: str, starts: Mapping[str, port.Value] | None = None) -> Recipe:
+    """Return the recipe of the bearing of one depth, with start values of your own if you like."""
     if depth not in DEPTHS:
         raise ValueError(f"bearing depth {depth!r}: allowed are {', '.join(DEPTHS)}")
     return Recipe(
@@ -81,12 +81,13 @@ def bearing_recipe(depth: str) -> Recipe:
         facade_class="BearingSlave",
         packages=("fmus", "bearing_fmu"),
         variables=lambda: port.BEARING,
-        arguments={"depth": depth},
+        arguments={"depth": depth, "starts": dict(starts or {})},
+        starts=starts or {},
     )
 
 
-def rotor_recipe(train: Train) -> Recipe:
-    """Return the recipe of the rotor of a train."""
+def rotor_recipe(train: Train, starts: Mapping[str, port.Value] | None = None) -> Recipe:
+    """Return the recipe of the rotor of a train, with start values of your own if you like."""
     if not re.fullmatch(r"[A-Za-z0-9_]+", train.name):
         raise ValueError(f"train name {train.name!r}: allowed are letters, digits and underscores")
     return Recipe(
@@ -100,6 +101,7 @@ def rotor_recipe(train: Train) -> Recipe:
         resources={"train.json": train.to_json().encode()},
         keeps_starts=True,
         builder_modules=("rotor_fmu.defaults",),
+        starts=starts or {},
     )
 
 

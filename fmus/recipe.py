@@ -11,10 +11,12 @@ from datetime import UTC, datetime
 from functools import cached_property
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 from fmus import loader
 from fmus.describe import page
 from fmus.description import Identity, model_description
+from fmus.port import with_starts
 from fmus.sources import package_folder, source_files
 from fmus.variable import Value, Variable
 
@@ -60,6 +62,8 @@ class Recipe:
         Add ``starts.json``, the start values by name, to the resources.
     builder_modules : tuple of str
         Modules that `variables` draws on; they stay outside, but count in the digest.
+    starts : mapping
+        Start values in place of those of the port, by variable name.
     """
 
     file_name: str
@@ -69,10 +73,11 @@ class Recipe:
     facade_class: str
     packages: tuple[str, ...]
     variables: Callable[[], tuple[Variable, ...]]
-    arguments: Mapping[str, Value] = field(default_factory=dict)
+    arguments: Mapping[str, Any] = field(default_factory=dict)
     resources: Mapping[str, bytes] = field(default_factory=dict)
     keeps_starts: bool = False
     builder_modules: tuple[str, ...] = ()
+    starts: Mapping[str, Value] = field(default_factory=dict)
 
     @cached_property
     def sources(self) -> dict[str, dict[str, bytes]]:
@@ -89,7 +94,7 @@ class Recipe:
             files |= {f"{package}/{name}": content for name, content in sources.items()}
         files |= {f"resources/{name}": content for name, content in self.resources.items()}
         said = (self.file_name, self.name, self.description, self.facade, self.facade_class)
-        made_with = (metadata.version("pythonfmu"), version(), dict(self.arguments))
+        made_with = (metadata.version("pythonfmu"), version(), dict(self.arguments), dict(self.starts))
         files["recipe"] = json.dumps([said, made_with], sort_keys=True).encode()
         return loader.digest_of(files.items())
 
@@ -101,7 +106,7 @@ class Recipe:
     def content(self) -> dict[str, bytes]:
         """Return the files of the FMU by their path in the archive."""
         identity = Identity(self.name, self.description, self.guid, version(), _date())
-        variables = self.variables()
+        variables = with_starts(self.variables(), self.starts)
         entry, loader_name = f"{self.name}_{self.digest[:12]}", f"bladeloss_loader_{_loader_digest()}"
         script = _ENTRY.format(
             name=self.name,

@@ -7,7 +7,7 @@ from pathlib import Path
 from orchestrator.coupling import SCHEMES
 from orchestrator.errors import FmuError
 from orchestrator.fmu_file import FmuStore
-from orchestrator.parameters import bearing_file, bearing_parameters, rotor_file, rotor_parameters
+from orchestrator.parameters import bearing_parameters, bearing_path, rotor_file, rotor_parameters
 from orchestrator.scenario import Scenario
 from orchestrator.system import System
 from orchestrator.unit import Unit, UnitError
@@ -44,12 +44,12 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> S
     try:
         units.append(Unit(store.open(fmus / rotor_file(train)), "rotor"))
         for seat in train.bearings:
-            file = store.open(fmus / bearing_file(scenario.depth_of(seat.name)))
-            units.append(Unit(file, seat.name))
+            units.append(Unit(store.open(bearing_path(scenario, seat.name, fmus)), seat.name))
         system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
         system.rotor.set_parameters(rotor_parameters(scenario, train))
         for unit, seat in zip(system.bearings, train.bearings, strict=True):
-            unit.set_parameters(bearing_parameters(seat, scenario.film))
+            values = bearing_parameters(seat, scenario.film)  # a user's own bearing may do without some
+            unit.set_parameters({name: x for name, x in values.items() if name in unit.file.variables})
         system.set_speed(train.speed)
         for unit in units:
             unit.enter_initialization(0.0, scenario.end)

@@ -13,7 +13,7 @@ of the bearings, start positions of the rotor.  The steps are
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,6 +141,28 @@ def apply_start(system: System, start: Start) -> None:
     for group in (system.bearing_group, system.rotor_group):
         group.feed()
         group.fetch()
+
+
+def begin(system: System, start: Start, nodes: int) -> Start:
+    """Apply a start and leave Initialization Mode.
+
+    Returns
+    -------
+    Start
+        With the static forces and the static line that follow from its parameters.
+    """
+    apply_start(system, start)
+    system.rotor.set_parameters({"start.orbit": False})
+    for group in system.groups:
+        group.feed()
+        group.fetch()
+    loads, line = system.forces[:, :2].copy(), _line(system, nodes)
+    apply_start(system, start)
+    for unit in system.units:
+        unit.exit_initialization()
+    for group in system.groups:
+        group.fetch()
+    return replace(start, loads=loads, static_line=line)
 
 
 def _rest_under(system: System, laws: Array) -> Array:

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from fmus.build import build, refresh
 from orchestrator.errors import FmuError
+from orchestrator.scenario import is_fmu
 from rotor_fmu.train import Train
 from rotor_fmu.train_file import load_train
 
@@ -23,7 +24,7 @@ def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Co
     train : Train
         The train; its rotor is one FMU.
     depths : collection of str
-        Depths of the bearings; one FMU each.
+        Depths of the bearings; one FMU each. Paths of FMUs are left alone.
     console : rich.console.Console
         Told what was built.
 
@@ -38,7 +39,7 @@ def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Co
         When the folder cannot be written to.
     """
     try:
-        built = refresh(folder, [train], sorted(depths))
+        built = refresh(folder, [train], sorted(depth for depth in depths if not is_fmu(depth)))
     except OSError as error:
         raise FmuError(f"{folder}: FMUs cannot be built there: {error}") from error
     if built:

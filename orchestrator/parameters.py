@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from fmus import port
-from orchestrator.scenario import FilmResolution, Scenario
+from orchestrator.scenario import FilmResolution, Scenario, is_fmu
 from rotor_fmu.train import BearingSeat, Train
 
 Values = dict[str, float | int | bool | str]
@@ -14,9 +16,10 @@ def rotor_file(train: Train) -> str:
     return "rotor.fmu" if train.name == "turbine" else f"rotor_{train.name}.fmu"
 
 
-def bearing_file(depth: str) -> str:
-    """Return the file name of the bearing FMU of a depth."""
-    return f"bearing_{depth}.fmu"
+def bearing_path(scenario: Scenario, bearing: str, fmus: Path) -> Path:
+    """Return the path of the FMU of a bearing: of its depth in the folder `fmus`, or the user's own."""
+    depth = scenario.depth_of(bearing)
+    return scenario.folder / depth if is_fmu(depth) else fmus / f"bearing_{depth}.fmu"
 
 
 def rotor_parameters(scenario: Scenario, train: Train) -> Values:

@@ -158,7 +158,7 @@ def train_coordinates(scenario: Scenario, train: Train) -> dict[str, Any]:
         "bearing": ("bearing", names),
         "axis": ("axis", ["x", "y"]),
         "coordinate": ("coordinate", list(port.POSITION)),
-        "depth": ("bearing", [scenario.depth_of(name) for name in names]),
+        "depth": ("bearing", [scenario.depth_name_of(name) for name in names]),
         "bearing_z": ("bearing", seats, _words("m", "axial position of the bearing")),
         "z": ("node", list(train.z), _words("m", "axial position of the node")),
     }

@@ -8,9 +8,9 @@ train.  SI units and rad.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
 
 Depth = Literal["v1", "v2", "v3"]
 Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
@@ -19,6 +19,20 @@ CouplingName = Literal["linear-implicit", "gauss-seidel", "jacobi"]
 DEPTHS: tuple[str, ...] = get_args(Depth)
 REDUCTIONS: tuple[str, ...] = get_args(Reduction)
 COUPLINGS: tuple[str, ...] = get_args(CouplingName)
+
+
+
+def is_fmu(depth: str) -> bool:
+    """Whether a depth is the path of an FMU, somebody's own bearing, and none of `DEPTHS`."""
+    return depth.endswith(".fmu")
+
+
+def _or_fmu(value: Any, check: ValidatorFunctionWrapHandler) -> Any:
+    return value if isinstance(value, str) and is_fmu(value) else check(value)
+
+
+DepthOrFmu = Annotated[Depth, WrapValidator(_or_fmu)]
+"""A depth, or the path of an FMU with the port of a bearing."""
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
@@ -124,7 +138,8 @@ class Scenario(_Model):
     depth : str
         Modelling depth of every bearing, one of `DEPTHS`.
     depth_at : dict
-        Depth by name of the bearing, where it differs.
+        Depth by name of the bearing, where it differs; or the path of an FMU with the port of a
+        bearing, relative to the scenario's file.
     unbalance : Unbalance
         Nominal unbalance.
     event : BladeFracture or None
@@ -149,7 +164,7 @@ class Scenario(_Model):
     train: str
     reduction: Reduction = "irs"
     depth: Depth = "v1"
-    depth_at: dict[str, Depth] = {}
+    depth_at: dict[str, DepthOrFmu] = {}
     unbalance: Unbalance = Unbalance()
     event: BladeFracture | None = None
     end: Positive
@@ -163,3 +178,8 @@ class Scenario(_Model):
     def depth_of(self, bearing: str) -> str:
         """Depth of the bearing of this name."""
         return self.depth_at.get(bearing, self.depth)
+
+    def depth_name_of(self, bearing: str) -> str:
+        """Depth of the bearing of this name for people: a file without its folder and suffix."""
+        depth = self.depth_of(bearing)
+        return Path(depth).stem if is_fmu(depth) else depth

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from orchestrator.errors import ScenarioError
 from orchestrator.scenario import Scenario
-from orchestrator.scenario_problems import name_problems, shape_problems, time_problems
+from orchestrator.scenario_problems import file_problems, name_problems, shape_problems, time_problems
 from rotor_fmu.train import Train
 from rotor_fmu.train_file import TrainFileError, bundled_trains, load_train
 
@@ -103,6 +103,7 @@ def _checked(raw: dict[str, Any], folder: Path, source: str) -> Scenario:
             problems += (f"train = {raw['train']!r}: {problem}" for problem in error.problems)
     if train is not None:
         problems += name_problems(raw, train)
+    problems += file_problems(raw, folder)
     if train is not None and scenario is not None:
         problems += time_problems(scenario, train)
     if scenario is None or problems:

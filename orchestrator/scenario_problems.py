@@ -6,11 +6,12 @@ import difflib
 import math
 import typing
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from orchestrator.scenario import Scenario
+from orchestrator.scenario import Scenario, is_fmu
 from rotor_fmu.train import Train
 
 STEPS_PER_REVOLUTION = 10
@@ -42,11 +43,7 @@ def shape_problems(error: ValidationError) -> Iterator[str]:
         elif kind == "missing":
             yield f"{where}: missing; it must be given"
         elif kind == "literal_error":
-            model, key = _owner(path)
-            allowed = typing.get_args(model.model_fields[key].annotation) if model else ()
-            if not all(isinstance(a, str) for a in allowed):  # a table whose values are literals
-                allowed = typing.get_args(allowed[-1])
-            yield f"{where} = {value!r}; {_choice(str(value), allowed)}"
+            yield f"{where} = {value!r}; {_choice(str(value), _literals(path))}"
         else:
             text = _ALLOWED.get(kind, problem["msg"]).format(**problem.get("ctx", {}))
             yield f"{where} = {value!r}; allowed is {text}"
@@ -94,6 +91,23 @@ def _choice(given: str, allowed: Iterable[str]) -> str:
     close = difflib.get_close_matches(given.casefold(), folded, n=1)
     hint = f"did you mean {folded[close[0]]!r}? " if close else ""
     return f"{hint}allowed are {', '.join(names)}"
+
+
+def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[str]:
+    """Yield FMUs of the user that are not there."""
+    for name, depth in _table(raw, "depth_at").items():
+        if isinstance(depth, str) and is_fmu(depth) and not (folder / depth).is_file():
+            yield f"depth_at.{name} = {depth!r}: no such file"
+
+
+def _literals(path: list[str]) -> tuple[str, ...]:
+    """What is allowed where a literal is expected."""
+    model, key = _owner(path)
+    allowed = typing.get_args(model.model_fields[key].annotation) if model else ()
+    if all(isinstance(a, str) for a in allowed):
+        return allowed
+    literal, *_ = typing.get_args(allowed[-1])  # a table whose values are depths or files
+    return (*typing.get_args(literal), "the path of an .fmu file")
 
 
 def _table(raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:

@@ -13,7 +13,7 @@ import xarray as xr
 
 from orchestrator.assembly import assemble
 from orchestrator.coupling import SCHEMES
-from orchestrator.equilibrium import apply_start, find_start
+from orchestrator.equilibrium import Start, begin, find_start
 from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import evaluate
 from orchestrator.fmu_file import FmuStore
@@ -133,24 +133,46 @@ def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -
         announce(Stage.LOAD, 0.0)
         system = assemble(scenario, train, fmus, store)
         try:
-            return _simulate(scenario, train, system, clock, announce)
+            return carry_out(
+                scenario,
+                train,
+                system,
+                lambda: find_start(system, train.bearings, train.speed, train.nodes),
+                clock,
+                announce,
+            )
         finally:
             system.close()
 
 
-def _simulate(
-    scenario: Scenario, train: Train, system: System, clock: Stopwatch, announce: Progress
+def carry_out(
+    scenario: Scenario,
+    train: Train,
+    system: System,
+    find: Callable[[], Start],
+    clock: Stopwatch,
+    announce: Progress,
 ) -> Result:
+    """Run an assembled system.
+
+    Parameters
+    ----------
+    scenario, train : Scenario, Train
+        What is run, and how it is coupled and recorded.
+    system : System
+        In Initialization Mode, parameters set.
+    find : callable
+        Returns the start of the run.
+    clock : Stopwatch
+        Started before the units were loaded.
+    announce : callable
+        See `Progress`.
+    """
     _warm_up(system, train)
     load = clock.lap()
     announce(Stage.EQUILIBRIUM, 0.0)
     try:
-        start = find_start(system, train.bearings, train.speed, train.nodes)
-        apply_start(system, start)
-        for unit in system.units:
-            unit.exit_initialization()
-        for group in system.groups:
-            group.fetch()
+        start = begin(system, find(), train.nodes)
     except (EquilibriumError, UnitError) as error:
         record = empty_record(scenario, train, Outcome.NO_EQUILIBRIUM, str(error))
         timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -20,6 +20,7 @@ RESPONSE = {v.name: index for index, v in enumerate(port.BEARING_OUTPUTS)}
 
 _BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
 _BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
+_OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
 _FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
 _PER_LAW = len(port.LAW)
 _PER_JOURNAL = len(port.JOURNAL)
@@ -148,7 +149,7 @@ def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
     for bearing in bearings:
         if bearing.file not in seen:
             seen.add(bearing.file)
-            problems += _differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS))
+            problems += _differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS, *_OFFSETS))
     surplus = port.at_bearing(len(bearings) + 1, port.JOURNAL[0])
     if surplus in rotor.file.variables:
         problems.append(f"{rotor.file.path}: has more than the {len(bearings)} bearings of the train")

@@ -12,7 +12,7 @@ REPOSITORY = Path(__file__).parents[2]
 PHYSICS = ("rotor_fmu", "bearing_fmu")
 OF_PHYSICS_FOR_THE_MASTER = {"rotor_fmu.train", "rotor_fmu.train_file"}
 OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.variable"}
-OF_FMUS_FOR_THE_MASTER = {"fmus.port", "fmus.variable", "fmus.build"}
+OF_FMUS_FOR_THE_MASTER = {"fmus.port", "fmus.variable", "fmus.build", "fmus.archive"}
 
 
 def modules(package):

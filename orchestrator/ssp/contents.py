@@ -1,0 +1,273 @@
+"""What an SSP holds, in the orchestrator's terms: train, rotor, bearings in order, scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from fmus import port
+from fmus.variable import Value
+from orchestrator.coupling import SCHEMES
+from orchestrator.errors import ScenarioError
+from orchestrator.fmu_file import FmuFile, FmuStore
+from orchestrator.graph import Connection
+from orchestrator.scenario import (
+    DEPTHS,
+    BladeFracture,
+    FilmResolution,
+    Scenario,
+    Unbalance,
+    WheelUnbalance,
+)
+from orchestrator.scenario_problems import shape_problems, time_problems
+from orchestrator.ssp.structure import Component, SspError, Structure
+from orchestrator.system import Wiring, port_connections
+from rotor_fmu.train import Train
+
+DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
+_LISTED = 12  # of the connections in a message
+
+
+@dataclass(frozen=True)
+class Contents:
+    """An SSP in the orchestrator's terms.
+
+    Attributes
+    ----------
+    structure : Structure
+        As read.
+    train : Train
+        From the rotor FMU.
+    rotor : Component
+        The component with the rotor's port.
+    bearings : tuple of Component
+        In the order of the train.
+    files : dict
+        The FMU of each component, by its name.
+    wiring : Wiring
+        What the connections give the rotor.
+    """
+
+    structure: Structure
+    train: Train
+    rotor: Component
+    bearings: tuple[Component, ...]
+    files: Mapping[str, FmuFile]
+    wiring: Wiring
+
+
+def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) -> Contents:
+    """Find rotor and bearings in a structure, and check that its connections are the port's.
+
+    Parameters
+    ----------
+    structure : Structure
+        From `orchestrator.ssp.reader.read_ssp`.
+    path, folder : Path
+        The archive, for messages, and where it is extracted.
+    store : FmuStore
+        Extracts the FMUs.
+
+    Raises
+    ------
+    SspError
+        Listing connections that are missing or not the port's.
+    FmuError
+        When an FMU is missing or cannot be read.
+    """
+    files = {c.name: store.open(folder / c.source) for c in structure.components}
+    marker = port.at_bearing(1, port.JOURNAL[0])
+    rotors = [c for c in structure.components if marker in files[c.name].variables]
+    if len(rotors) != 1:
+        names = ", ".join(c.name for c in rotors) or "none"
+        raise SspError(f"{path}: rotors: {names}; allowed is one component with {marker}")
+    (rotor,) = rotors
+    train = _train(files[rotor.name], path)
+    bearings = tuple(_in_order(structure, rotor, len(train.bearings), path))
+    surplus = {c.name for c in structure.components} - {rotor.name, *(c.name for c in bearings)}
+    if surplus:
+        raise SspError(f"{path}: {', '.join(sorted(surplus))}: joined to no bearing of {rotor.name}")
+    wiring = _wiring(structure, rotor, bearings, path)
+    return Contents(structure, train, rotor, bearings, files, wiring)
+
+
+def _train(file: FmuFile, path: Path) -> Train:
+    source = file.folder / "resources" / "train.json"
+    if not source.is_file():
+        raise SspError(f"{path}: {file.path.name}: without train.json, so no rotor of bladeloss")
+    return Train.from_json(source.read_text(encoding="utf-8"))
+
+
+def _in_order(structure: Structure, rotor: Component, count: int, path: Path) -> Iterator[Component]:
+    """Yield the component at each bearing of the rotor, known by the journal that it gets."""
+    by_name = {c.name: c for c in structure.components}
+    target = {c.output: c.target for c in structure.connections if c.source == rotor.name}
+    seen: set[str] = set()
+    for index in range(1, count + 1):
+        name = target.get(port.at_bearing(index, port.JOURNAL[0]))
+        if name not in by_name or name in seen:
+            raise SspError(f"{path}: {rotor.name}: no component of its own is connected to bearing {index}")
+        seen.add(name)
+        yield by_name[name]
+
+
+def _wiring(structure: Structure, rotor: Component, bearings: Iterable[Component], path: Path) -> Wiring:
+    found = set(structure.connections)
+    names = [c.name for c in bearings]
+    wanted = {wiring: set(port_connections(rotor.name, names, wiring)) for wiring in Wiring}
+    for wiring, connections in wanted.items():
+        if found == connections:
+            return wiring
+    nearest = min(Wiring, key=lambda wiring: len(found ^ wanted[wiring]))
+    problems = [f"  missing: {_text(c)}" for c in _sorted(wanted[nearest] - found)]
+    problems += [f"  not of the port: {_text(c)}" for c in _sorted(found - wanted[nearest])]
+    more = f"\n  and {len(problems) - _LISTED} more" if len(problems) > _LISTED else ""
+    listed = "\n".join(problems[:_LISTED]) + more
+    raise SspError(f"{path}: allowed are the connections of the affine law or of the force alone\n{listed}")
+
+
+def _sorted(connections: Iterable[Connection]) -> list[Connection]:
+    return sorted(connections, key=_text)
+
+
+def _text(c: Connection) -> str:
+    return f"{c.source}.{c.output} -> {c.target}.{c.input}"
+
+
+def parameters(component: Component, file: FmuFile, path: Path) -> dict[str, Value]:
+    """Return the values that the SSP gives a component.
+
+    Raises
+    ------
+    SspError
+        When the FMU has no such variable, or none that may be set.
+    """
+    for name in component.parameters:
+        variable = file.variables.get(name)
+        if variable is None or variable.causality not in ("input", "parameter"):
+            what = "no variable" if variable is None else f"a {variable.causality}, and not to be set,"
+            raise SspError(f"{path}: {component.name}: {name} is {what} of {file.path.name}")
+    return dict(component.parameters)
+
+
+def value_of(contents: Contents, component: Component, name: str) -> Any:
+    """Return a start value: of the SSP, else of the FMU."""
+    variable = contents.files[component.name].variables[name]
+    return component.parameters.get(name, variable.start)
+
+
+def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) -> Scenario:
+    """Describe an SSP as a scenario, for record and summary.
+
+    Parameters
+    ----------
+    contents : Contents
+        The SSP; where its parameters say more than a scenario can, they count and not this.
+    overrides : mapping
+        Values of ``end``, ``step`` and ``coupling`` in place of those of the SSP.
+    path : Path
+        The archive.
+
+    Raises
+    ------
+    SspError
+        When the coupling does not fit the connections.
+    ScenarioError
+        When times or speeds contradict one another.
+    """
+    structure, train = contents.structure, contents.train
+    usual = "linear-implicit" if contents.wiring is Wiring.LAW else "gauss-seidel"
+    coupling = overrides.get("coupling") or structure.coupling or usual
+    if coupling not in SCHEMES or SCHEMES[coupling].wiring is not contents.wiring:
+        allowed = [name for name, scheme in SCHEMES.items() if scheme.wiring is contents.wiring]
+        raise SspError(
+            f"{path}: coupling {coupling!r}: the connections are those of the {contents.wiring.value}; "
+            f"allowed is {' or '.join(allowed)}"
+        )
+    end = overrides.get("end") or structure.end or DEFAULT_END
+    first = contents.bearings[0]
+    depths = {
+        seat.name: _depth(contents.files[c.name])
+        for seat, c in zip(train.bearings, contents.bearings, strict=True)
+    }
+    common = next((depth for depth in depths.values() if depth in DEPTHS), DEPTHS[0])
+    film = FilmResolution()
+    if "film.columns" in contents.files[first.name].variables:
+        columns, rows = (int(value_of(contents, first, f"film.{key}")) for key in ("columns", "rows"))
+        film = FilmResolution(columns=columns, rows=rows)
+    values: dict[str, Any] = {
+        "title": structure.title or structure.name,
+        "train": train.name,
+        "reduction": value_of(contents, contents.rotor, "reduction"),
+        "depth": common,
+        "depth_at": {name: depth for name, depth in depths.items() if depth != common},
+        "unbalance": _unbalance(contents),
+        "event": _event(contents, end),
+        "end": end,
+        "step": overrides.get("step") or structure.step or DEFAULT_STEP,
+        "coupling": coupling,
+        "film": film,
+        "record": {} if structure.record_interval is None else {"interval": structure.record_interval},
+        "analysed_bearing": structure.analysed_bearing,
+        "folder": path.parent,
+    }
+    try:
+        scenario = Scenario(**values)
+    except ValidationError as error:
+        raise ScenarioError(str(path), list(shape_problems(error))) from None
+    problems = [*time_problems(scenario, train), *_speed_problems(contents)]
+    if problems:
+        raise ScenarioError(str(path), problems)
+    return scenario
+
+
+def _speed_problems(contents: Contents) -> Iterator[str]:
+    speed = float(value_of(contents, contents.rotor, port.SPEED))
+    for component in contents.bearings:
+        other = float(value_of(contents, component, port.SPEED))
+        if other != speed:
+            yield f"{component.name}: speed = {other!r}; allowed is that of the rotor, {speed!r} rad/s"
+
+
+def _depth(file: FmuFile) -> str:
+    """Return the depth of a bearing of bladeloss; of others the file name."""
+    depth = str(file.description.modelName).removeprefix("bladeloss_bearing_")
+    return depth if depth in DEPTHS else file.path.name
+
+
+def _wheel_values(contents: Contents, key: str) -> list[float]:
+    wheels = range(1, len(contents.train.wheels) + 1)
+    return [float(value_of(contents, contents.rotor, f"wheel[{j}].{key}")) for j in wheels]
+
+
+def _unbalance(contents: Contents) -> Unbalance:
+    train = contents.train
+    values = zip(
+        train.wheels,
+        train.nominal_unbalance,
+        _wheel_values(contents, "unbalance"),
+        _wheel_values(contents, "unbalance_phase"),
+        strict=True,
+    )
+    return Unbalance(
+        at={
+            wheel.name: WheelUnbalance(unbalance=value, phase=phase)
+            for wheel, nominal, value, phase in values
+            if (value, phase) != (nominal, wheel.unbalance_phase)
+        }
+    )
+
+
+def _event(contents: Contents, end: float) -> BladeFracture | None:
+    """The fracture before the end; of several wheels that with the largest unbalance."""
+    lost, phases = (_wheel_values(contents, f"blade_{key}") for key in ("unbalance", "phase"))
+    time = float(value_of(contents, contents.rotor, "fracture.time"))
+    largest = max(range(len(lost)), key=lost.__getitem__)
+    if not (lost[largest] > 0.0 and time < end):
+        return None
+    wheel = contents.train.wheels[largest].name
+    return BladeFracture(wheel=wheel, unbalance=lost[largest], phase=phases[largest], time=time)

@@ -1,0 +1,177 @@
+"""From a scenario to an SSP: its system, at its static equilibrium, for other tools."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from fmus import port
+from fmus.archive import write_archive
+from fmus.build import bearing_recipe, rotor_recipe, write
+from orchestrator.assembly import assemble
+from orchestrator.equilibrium import Start, find_start
+from orchestrator.fmu_file import FmuFile, FmuStore
+from orchestrator.parameters import (
+    Values,
+    bearing_parameters,
+    offset_names,
+    rotor_file,
+    rotor_parameters,
+    start_names,
+)
+from orchestrator.scenario import Scenario, is_fmu
+from orchestrator.scenario_file import train_of
+from orchestrator.ssp.structure import ROTOR, Component, Connector, SspError, Structure
+from orchestrator.ssp.writer import documents
+from orchestrator.system import System, Wiring, port_connections
+from orchestrator.unit import Unit
+from rotor_fmu.train import Train
+
+
+def force_only(path: Path) -> Path:
+    """Where the second system definition goes that belongs to the one at `path`."""
+    return path.with_name(f"{path.stem}_force{path.suffix}")
+
+
+def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
+    """Write the system of a scenario as two SSP archives: affine law, and force only.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Its static equilibrium is solved here, as at the start of a run.
+    fmus : Path
+        Folder with its FMUs.
+    out : Path
+        The archive with the affine law; the other gets ``_force`` in its name. Two exports
+        of the same scenario with the same FMUs have the same bytes.
+    name : str
+        Names the system.
+
+    Returns
+    -------
+    list of Path
+        The archives.
+
+    Raises
+    ------
+    FmuError, PortError
+        As `orchestrator.assembly.assemble`.
+    EquilibriumError
+        When the train finds no equilibrium on its films.
+    SspError
+        When a setting fits neither the parameter sets of an SSP nor the start values of an FMU.
+    """
+    train = train_of(scenario)
+    with tempfile.TemporaryDirectory(prefix="bladeloss_ssp_") as temporary, FmuStore() as store:
+        system = assemble(scenario, train, fmus, store)
+        try:
+            start = find_start(system, train.bearings, train.speed, train.nodes)
+            parts = _Parts(scenario, train, fmus, Path(temporary))
+            components = tuple(parts.components(system, start))
+        finally:
+            system.close()
+        archives = {out: Wiring.LAW, force_only(out): Wiring.FORCE}
+        for path, wiring in archives.items():
+            bearings = [c.name for c in components[1:]]
+            structure = Structure(
+                name=_identifier(name) + ("_force" if wiring is Wiring.FORCE else ""),
+                title=scenario.title,
+                components=components,
+                connections=tuple(port_connections(ROTOR, bearings, wiring)),
+                end=scenario.end,
+                step=scenario.step,
+                coupling=scenario.coupling if wiring is Wiring.LAW else "gauss-seidel",
+                record_interval=scenario.record.interval,
+                analysed_bearing=scenario.analysed_bearing,
+            )
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_archive(path, documents(structure) | parts.files)
+    return list(archives)
+
+
+class _Parts:
+    """Components of a scenario and the FMUs they refer to, each FMU once."""
+
+    def __init__(self, scenario: Scenario, train: Train, fmus: Path, temporary: Path) -> None:
+        self.scenario, self.train, self.fmus, self.temporary = scenario, train, fmus, temporary
+        self.files: dict[str, bytes] = {}
+        self._sources: dict[Path, str] = {}
+
+    def components(self, system: System, start: Start) -> Iterator[Component]:
+        """Yield rotor and bearings: Real settings as parameters, others as start values of their FMUs."""
+        given = rotor_parameters(self.scenario, self.train) | {port.SPEED: self.train.speed}
+        for part, positions in (("", start.static), ("_cos", start.cosine), ("_sin", start.sine)):
+            given |= _named(start_names(len(system.bearings), part), positions)
+        yield self._component(ROTOR, f"shaft of the train {self.train.name}", system.rotor, given)
+        taken = {ROTOR}
+        for unit, seat, offset in zip(system.bearings, self.train.bearings, start.offsets, strict=True):
+            given = bearing_parameters(seat, self.scenario.film) | {port.SPEED: self.train.speed}
+            given |= _named(offset_names(), offset)
+            name = _identifier(seat.name)
+            if name in taken:
+                raise SspError(f"bearing {seat.name}: as {name} its name is taken; tools need unlike names")
+            taken.add(name)
+            yield self._component(name, seat.name, unit, given)
+
+    def _component(self, name: str, description: str, unit: Unit, given: Values) -> Component:
+        given = {key: x for key, x in given.items() if key in unit.file.variables}
+        real = {key: float(x) for key, x in given.items() if unit.variable(key).type == "Real"}
+        other = {key: x for key, x in given.items() if key not in real}
+        source = self._source(unit.file, description if name != ROTOR else None, _unlike(unit.file, other))
+        return Component(name, source, description, tuple(_connectors(unit.file)), real)
+
+    def _source(self, file: FmuFile, bearing: str | None, starts: Values) -> str:
+        """Return where the FMU lies in the archive; build it anew where it needs other start values."""
+        key = file.path.resolve()
+        if key not in self._sources:
+            content = file.path.read_bytes()
+            if starts:
+                content = self._with_starts(file, bearing, starts)
+            name, number = file.path.name, 2
+            while f"resources/{name}" in self.files:
+                name, number = f"{file.path.stem}_{number}.fmu", number + 1
+            self._sources[key] = f"resources/{name}"
+            self.files[self._sources[key]] = content
+        return self._sources[key]
+
+    def _with_starts(self, file: FmuFile, bearing: str | None, starts: Values) -> bytes:
+        if bearing is None:
+            own = file.path.name == rotor_file(self.train)
+            recipe = rotor_recipe(self.train, starts) if own else None
+        else:
+            depth = self.scenario.depth_of(bearing)
+            recipe = None if is_fmu(depth) else bearing_recipe(depth, starts)
+        if recipe is None:
+            settings = ", ".join(f"{name} = {value!r}" for name, value in starts.items())
+            raise SspError(
+                f"{file.path}: {settings}: parameter sets hold Real values only, and the start values of an "
+                "FMU that bladeloss did not build stay as they are; take those"
+            )
+        return write(recipe, self.temporary).read_bytes()
+
+
+def _unlike(file: FmuFile, settings: Values) -> Values:
+    """Those of the settings that differ from the FMU's start values."""
+    return {name: x for name, x in settings.items() if str(file.variables[name].start) != str(x)}
+
+
+def _connectors(file: FmuFile) -> Iterator[Connector]:
+    """Yield the inputs and outputs, without those of every shaft node."""
+    for v in file.description.modelVariables:
+        if v.type == "Real" and v.causality in ("input", "output") and not v.name.startswith("node["):
+            yield Connector(v.name, v.causality, v.unit if v.unit in port.UNITS else "")
+
+
+def _named(names: Sequence[str], values: np.ndarray) -> Values:
+    return dict(zip(names, np.asarray(values, dtype=float).ravel().tolist(), strict=True))
+
+
+def _identifier(name: str) -> str:
+    """Return a name that every tool takes."""
+    text = re.sub(r"[^A-Za-z0-9_]", "_", name)
+    return text if text[:1].isalpha() else f"b_{text}"
