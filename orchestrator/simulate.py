@@ -32,6 +32,7 @@ class Stage(StrEnum):
     """What a call to `simulate` is busy with; the value is fit for display."""
 
     LOAD = "loading FMUs"
+    WARM_UP = "first evaluation"  # long where numba has to compile the films, once per installation
     EQUILIBRIUM = "static equilibrium"
     RUN = "time loop"
 
@@ -168,6 +169,7 @@ def carry_out(
     announce : callable
         See `Progress`.
     """
+    announce(Stage.WARM_UP, 0.0)
     _warm_up(system, train)
     load = clock.lap()
     announce(Stage.EQUILIBRIUM, 0.0)

@@ -25,7 +25,7 @@ from fmpy.fmi2 import (
 )
 from numpy.typing import NDArray
 
-from orchestrator.errors import FmuError, PortError
+from orchestrator.errors import FmuError, OrchestratorError, PortError
 from orchestrator.fmu_file import FmuFile
 
 _KEPT_MESSAGES = 50
@@ -45,7 +45,7 @@ class Status(IntEnum):
     PENDING = 5
 
 
-class UnitError(Exception):
+class UnitError(OrchestratorError):
     """A call to an FMU that did not end with OK.
 
     Attributes
