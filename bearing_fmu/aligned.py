@@ -41,8 +41,8 @@ class AlignedFilm(NamedTuple):
     grading: Floats  #: (6, 4)
     fields: Floats  #: (2, FIELDS, m) columns and faces
     nodal: Floats  #: (h, 4, m) bearing part of the pressure and its derivatives
-    modal: Floats  #: (3, r, m) the pressure and two adjoint ones
-    factor: Floats  #: (r, 2, m) reciprocal pivots and coupling to the last column
+    modal: Floats  #: (3, m, r) the pressure and two adjoint ones
+    factor: Floats  #: (m, 2, r) reciprocal pivots and coupling to the last column
     forcing: Floats  #: (8, m) work space
 
 
@@ -67,8 +67,8 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         grading=np.zeros((6, 4)),
         fields=np.zeros((2, FIELDS, columns)),
         nodal=np.zeros((half.size, 4, columns)),
-        modal=np.zeros((3, even.size, columns)),
-        factor=np.zeros((even.size, 2, columns)),
+        modal=np.zeros((3, columns, even.size)),
+        factor=np.zeros((columns, 2, even.size)),
         forcing=np.zeros((8, columns)),
     )
 
@@ -101,50 +101,57 @@ def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
 
 @inner_kernel
 def _factorise(film: AlignedFilm) -> bool:
-    """Eliminate each mode's columns as `ring.factorise` does."""
-    m = film.circle.shape[2]
+    """Eliminate each mode's columns as `ring.factorise` does, all modes abreast."""
+    m, modes = film.circle.shape[2], film.values.shape[0]
     along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
-    for r in range(film.values.shape[0]):
-        pivot, fill = film.factor[r, 0], film.factor[r, 1]
-        last = film.values[r] * axial[m - 1] + along[m - 1] + along[m - 2]
-        s = film.values[r] * axial[0] + along[0] + along[m - 1]
-        v = -along[m - 1]
-        for i in range(m - 1):
+    s, v, last = film.forcing[0], film.forcing[1], film.forcing[2]
+    for r in range(modes):
+        last[r] = film.values[r] * axial[m - 1] + along[m - 1] + along[m - 2]
+        s[r] = film.values[r] * axial[0] + along[0] + along[m - 1]
+        v[r] = -along[m - 1]
+    for i in range(m - 1):
+        for r in range(modes):
             if i == m - 2:
-                v -= along[i]
-            if not s > 0.0:
+                v[r] -= along[i]
+            if not s[r] > 0.0:
                 return False
-            inverse = 1.0 / s
-            pivot[i] = inverse
-            fill[i] = inverse * v
-            last -= fill[i] * v
-            v = along[i] * fill[i]
-            s = film.values[r] * axial[i + 1] + along[i + 1] + along[i] - along[i] * along[i] * inverse
-        if not last > 0.0:
+            inverse = 1.0 / s[r]
+            fill = inverse * v[r]
+            film.factor[i, 0, r] = inverse
+            film.factor[i, 1, r] = fill
+            last[r] -= fill * v[r]
+            v[r] = along[i] * fill
+            s[r] = film.values[r] * axial[i + 1] + along[i + 1] + along[i] - along[i] * along[i] * inverse
+    for r in range(modes):
+        if not last[r] > 0.0:
             return False
-        pivot[m - 1] = 1.0 / last
+        film.factor[m - 1, 0, r] = 1.0 / last[r]
     return True
 
 
 @inner_kernel
-def _substitute(film: AlignedFilm, index: int) -> None:
-    """Solve in place for modal pressure `index`."""
-    m = film.circle.shape[2]
+def _substitute(film: AlignedFilm, first: int, sides: int) -> None:
+    """Solve in place for the modal pressures from `first`, all modes and sides abreast."""
+    m, modes = film.circle.shape[2], film.values.shape[0]
     along = film.fields[1, CONDUCTANCE]
-    for r in range(film.values.shape[0]):
-        x, pivot, fill = film.modal[index, r], film.factor[r, 0], film.factor[r, 1]
-        carry, last = 0.0, x[m - 1]
-        for i in range(m - 1):
-            y = x[i] + carry
-            last -= fill[i] * y
-            x[i] = pivot[i] * y
-            carry = along[i] * x[i]
-        last *= pivot[m - 1]
-        x[m - 1] = last
-        ahead = 0.0
-        for i in range(m - 2, -1, -1):
-            ahead = x[i] + pivot[i] * along[i] * ahead - fill[i] * last
-            x[i] = ahead
+    for i in range(m - 1):
+        for k in range(first, first + sides):
+            for r in range(modes):
+                y = film.modal[k, i, r]
+                if i > 0:
+                    y += along[i - 1] * film.modal[k, i - 1, r]
+                film.modal[k, i, r] = film.factor[i, 0, r] * y
+                film.modal[k, m - 1, r] -= film.factor[i, 1, r] * y
+    for k in range(first, first + sides):
+        for r in range(modes):
+            film.modal[k, m - 1, r] *= film.factor[m - 1, 0, r]
+    for i in range(m - 2, -1, -1):
+        for k in range(first, first + sides):
+            for r in range(modes):
+                x = film.modal[k, i, r] - film.factor[i, 1, r] * film.modal[k, m - 1, r]
+                if i < m - 2:
+                    x += film.factor[i, 0, r] * along[i] * film.modal[k, i + 1, r]
+                film.modal[k, i, r] = x
 
 
 @stage
@@ -159,16 +166,15 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
         back = i - 1 if i > 0 else m - 1
         drive = -(speed * (t[i] - t[back]) + 2.0 * t1[i] * squeeze[i])
         for r in range(film.values.shape[0]):
-            film.modal[0, r, i] = film.drive[r] * drive
-    _substitute(film, 0)
+            film.modal[0, i, r] = film.drive[r] * drive
+    _substitute(film, 0, 1)
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
     above = film.forcing[0]
     for j in range(film.weights.shape[0]):
-        above[:] = ambient
-        for r in range(film.values.shape[0]):
-            shape, pressure = film.shapes[j, r], film.modal[0, r]
-            for i in range(m):
-                above[i] += shape * pressure[i]
+        for i in range(m):
+            above[i] = ambient
+            for r in range(film.values.shape[0]):
+                above[i] += film.shapes[j, r] * film.modal[0, i, r]
         part = film.nodal[j, 0]
         bearing_part(above, m, part, film.nodal[j, 1], film.nodal[j, 2], film.nodal[j, 3])
         along, across = 0.0, 0.0
@@ -177,12 +183,11 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
             across += part[i] * metric[i] * sin[i]
         result[0] -= along * film.weights[j] * cell
         result[1] -= across * film.weights[j] * cell
-    above[:] = ambient
     shear = 0.0
-    for r in range(film.values.shape[0]):
-        for i in range(m):
-            above[i] += film.centre[r] * film.modal[0, r, i]
     for i in range(m):
+        above[i] = ambient
+        for r in range(film.values.shape[0]):
+            above[i] += film.centre[r] * film.modal[0, i, r]
         shear += metric[i] / film.fields[0, OPEN, i]
     result[PEAK] = summit(above, m)
     result[SHEAR] = 2.0 * cell * shear
@@ -208,10 +213,9 @@ def _solve_adjoints(film: AlignedFilm) -> None:
             along = w0 * cos[i] + w1 * cos[back] + w2 * cos[fore]
             across = w0 * sin[i] + w1 * sin[back] + w2 * sin[fore]
             for r in range(film.values.shape[0]):
-                film.modal[1, r, i] += film.shapes[j, r] * along
-                film.modal[2, r, i] += film.shapes[j, r] * across
-    _substitute(film, 1)
-    _substitute(film, 2)
+                film.modal[1, i, r] += film.shapes[j, r] * along
+                film.modal[2, i, r] += film.shapes[j, r] * across
+    _substitute(film, 1, 2)
 
 
 @inner_kernel
@@ -234,11 +238,11 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
             fore = i + 1 if i + 1 < m else 0
             axial, around, volume, wedge = 0.0, 0.0, 0.0, 0.0
             for r in range(film.values.shape[0]):
-                adjoint, pressure = film.modal[1 + component, r], film.modal[0, r]
-                step = adjoint[fore] - adjoint[i]
-                axial += film.values[r] * adjoint[i] * pressure[i]
-                around += step * (pressure[fore] - pressure[i])
-                volume += film.drive[r] * adjoint[i]
+                adjoint, pressure = film.modal[1 + component, i, r], film.modal[0, i, r]
+                step = film.modal[1 + component, fore, r] - adjoint
+                axial += film.values[r] * adjoint * pressure
+                around += step * (film.modal[0, fore, r] - pressure)
+                volume += film.drive[r] * adjoint
                 wedge += film.drive[r] * step
             axial *= column[CONDUCTANCE, i]
             around *= face[CONDUCTANCE, i]
