@@ -24,6 +24,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
+import numpy as np
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
@@ -32,6 +33,8 @@ from fmus.layout import Layout
 from fmus.state import UnitState, unpack
 from fmus.store import Store
 from fmus.variable import Kind
+
+_NAMED = 8  # of the bad inputs in a message
 
 INSTANTIATED, INITIALIZATION, STEP, TERMINATED = range(4)  # modes, FMI 2.0, section 4.2.4
 
@@ -85,6 +88,10 @@ class UnitSlave(Fmi2Slave):
     def start(self) -> None:
         """Write the outputs at the start time from inputs and parameters."""
 
+    def starts_on(self) -> int:
+        """Return how many inputs, from the first, the start depends on; others may be NaN until a step."""
+        return len(self.inputs)
+
     @abstractmethod
     def advance(self, time: float, step: float) -> None:
         """Step from `time` by `step` and write the outputs; on error leave all as it was."""
@@ -136,14 +143,8 @@ class UnitSlave(Fmi2Slave):
     def _checked_step(self, time: float, step: float) -> None:
         if not (0.0 < step < math.inf and math.isfinite(time)):
             raise UnitError("the step must be positive and finite")
-        self._check_inputs()
+        _check_inputs(self.layout, self.inputs)
         self.advance(time, step)
-
-    def _check_inputs(self) -> None:
-        # one pass: a single NaN or infinity spoils the sum of squares
-        if not math.isfinite(self.inputs.dot(self.inputs)):
-            bad = (self.layout.variables[i].name for i, x in enumerate(self.inputs) if not math.isfinite(x))
-            raise UnitError(f"input {', '.join(bad)} is not a finite number")
 
     def _solve(self) -> None:
         """Prepare and start where something was set since; the reason of a failure is kept."""
@@ -159,7 +160,7 @@ class UnitSlave(Fmi2Slave):
                 self.values[list(self.layout.computed)] = math.nan
 
     def _initialize(self) -> None:
-        self._check_inputs()
+        _check_inputs(self.layout, self.inputs[: self.starts_on()])
         for i in self.layout.settable["Real"]:
             if math.isnan(self.values[i]):
                 raise UnitError(f"parameter {self.layout.variables[i].name} is not a number")
@@ -284,3 +285,11 @@ class UnitSlave(Fmi2Slave):
     def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
         # the text passes through printf on its way out
         self.log(f"{self.instance_name}: {message}".replace("%", "%%"), status)
+
+
+def _check_inputs(layout: Layout, inputs: np.ndarray) -> None:
+    # one pass: a single NaN or infinity spoils the sum of squares
+    if not math.isfinite(inputs.dot(inputs)):
+        bad = [layout.variables[i].name for i, x in enumerate(inputs) if not math.isfinite(x)]
+        more = f" and {len(bad) - _NAMED} more" if len(bad) > _NAMED else ""
+        raise UnitError(f"input {', '.join(bad[:_NAMED])}{more} is not a finite number")

@@ -94,6 +94,10 @@ class RotorSlave(UnitSlave):
             self._rotor.start_from_positions(*parts, time=self.start_time)
         self._journals[:] = self._rotor.kinematics()
 
+    def starts_on(self) -> int:
+        """Return 1, for the speed, unless the start is asked for under the laws at the inputs."""
+        return len(self.inputs) if self._value("start.from_law") else 1
+
     def _start_positions(self, part: str) -> np.ndarray:
         """Return the start parameters of one part, (n_b, 4)."""
         bearings = range(1, len(self._train.bearings) + 1)

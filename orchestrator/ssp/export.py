@@ -109,9 +109,12 @@ class _Parts:
             given |= _named(start_names(len(system.bearings), part), positions)
         yield self._component(ROTOR, f"shaft of the train {self.train.name}", system.rotor, given)
         taken = {ROTOR}
-        for unit, seat, offset in zip(system.bearings, self.train.bearings, start.offsets, strict=True):
+        # so that a tool has them right before anything has travelled along a connection
+        journals = np.hstack([start.static + start.cosine, self.train.speed * start.sine])
+        of_bearings = zip(system.bearings, self.train.bearings, start.offsets, journals, strict=True)
+        for unit, seat, offset, journal in of_bearings:
             given = bearing_parameters(seat, self.scenario.film) | {port.SPEED: self.train.speed}
-            given |= _named(offset_names(), offset)
+            given |= _named(offset_names(), offset) | _named(port.JOURNAL, journal)
             name = _identifier(seat.name)
             if name in taken:
                 raise SspError(f"bearing {seat.name}: as {name} its name is taken; tools need unlike names")

@@ -47,7 +47,12 @@ def documents(structure: Structure) -> dict[str, bytes]:
 def _definition(structure: Structure) -> bytes:
     root = Element(
         "ssd:SystemStructureDescription",
-        {**_names("ssc", "ssd"), "version": "1.0", "name": structure.name, "description": structure.title},
+        {
+            **_names("ssc", "ssd", "osp", "bladeloss"),
+            "version": "1.0",
+            "name": structure.name,
+            "description": structure.title,
+        },
     )
     system = SubElement(root, "ssd:System", name=structure.name)
     elements = SubElement(system, "ssd:Elements")
@@ -70,7 +75,7 @@ def _definition(structure: Structure) -> bytes:
     annotations = SubElement(experiment, "ssd:Annotations")
     if structure.step is not None:
         osp = SubElement(annotations, "ssc:Annotation", type=OSP)
-        algorithm = SubElement(osp, "osp:Algorithm", _names("osp"))
+        algorithm = SubElement(osp, "osp:Algorithm")  # libcosim takes an attribute here for an algorithm
         SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=repr(structure.step))
     settings = {
         "coupling": structure.coupling,
@@ -79,7 +84,7 @@ def _definition(structure: Structure) -> bytes:
     }
     own = SubElement(annotations, "ssc:Annotation", type=RUN)
     given = {key: str(value) for key, value in settings.items() if value is not None}
-    SubElement(own, "bladeloss:Run", _names("bladeloss") | given)
+    SubElement(own, "bladeloss:Run", given)
     return _text(root)
 
 
