@@ -7,12 +7,13 @@ Only the options are declared here; what a command does is imported when it runs
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from orchestrator import cli_linear
+from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
 
 app = typer.Typer(
     name="bladeloss",
@@ -21,39 +22,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     pretty_exceptions_show_locals=False,
 )
-
-
-class Depth(StrEnum):
-    """Modelling depth of a bearing."""
-
-    V1 = "v1"
-    V2 = "v2"
-    V3 = "v3"
-
-
-class Coupling(StrEnum):
-    """How rotor and bearings exchange values."""
-
-    LINEAR_IMPLICIT = "linear-implicit"
-    GAUSS_SEIDEL = "gauss-seidel"
-    JACOBI = "jacobi"
-
-
-class Reduction(StrEnum):
-    """Reduction of the shaft."""
-
-    IRS = "irs"
-    GUYAN = "guyan"
-    CRAIG_BAMPTON = "craig-bampton"
-    NONE = "none"
-
-
-class Format(StrEnum):
-    """File type of a figure."""
-
-    PNG = "png"
-    PDF = "pdf"
-    SVG = "svg"
+cli_linear.register(app)
 
 
 RUN_HELP = (
@@ -130,7 +99,7 @@ def run(
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
     reduction: Annotated[
         Reduction | None,
-        typer.Option(metavar="NAME", help="Of the shaft: irs, guyan, craig-bampton or none."),
+        typer.Option(metavar="NAME", help="Of the shaft: irs, irs-plain, guyan, craig-bampton or none."),
     ] = None,
     bearing: Annotated[
         str | None,
@@ -171,7 +140,7 @@ def run(
         request = RunRequest(scenario, overrides, out, fmus, bearing, formats)
         return run_scenario(request, Console(), Console(stderr=True))
 
-    _guarded(work)
+    guarded(work)
 
 
 @app.command()
@@ -196,7 +165,7 @@ def build(
         build_all(out, train, Console())
         return 0
 
-    _guarded(work)
+    guarded(work)
 
 
 @app.command()
@@ -211,7 +180,7 @@ def info() -> None:
         show(Console())
         return 0
 
-    _guarded(work)
+    guarded(work)
 
 
 def _assignments(items: list[str]) -> dict[str, str]:
@@ -226,27 +195,6 @@ def _assignments(items: list[str]) -> dict[str, str]:
             )
         found[name] = depth
     return found
-
-
-def _guarded(work: Callable[[], int]) -> None:
-    """Do the work; an error of the input becomes its text on stderr and exit status 2."""
-    from orchestrator.errors import OrchestratorError
-    from orchestrator.exit_status import INPUT_ERROR, STATUS
-    from orchestrator.outcome import Outcome
-    from rotor_fmu.train_file import TrainFileError
-
-    try:
-        status = work()
-    except (OrchestratorError, TrainFileError) as error:
-        typer.secho(f"error: {error}", err=True, fg="red")
-        status = INPUT_ERROR
-    except OSError as error:
-        typer.secho(f"error: {error}", err=True, fg="red")
-        status = 1
-    except KeyboardInterrupt:
-        typer.secho("interrupted; nothing was written", err=True, fg="red")
-        status = STATUS[Outcome.INTERRUPTED]
-    raise typer.Exit(status)
 
 
 def main() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,10 +62,13 @@ def unbalance_response(
 
 
 def unbalance_responses(
-    shaft: ShaftModel | ReducedShaft, speeds: Sequence[float], bearings: Bearings, unbalance: ArrayLike
+    shaft: ShaftModel | ReducedShaft, speeds: ArrayLike, bearings: Bearings, unbalance: ArrayLike
 ) -> list[HarmonicResponse]:
     """`unbalance_response` over speed, with the same bearings at all speeds."""
-    return [unbalance_response(shaft, speed, bearings, unbalance) for speed in speeds]
+    return [
+        unbalance_response(shaft, speed, bearings, unbalance)
+        for speed in np.asarray(speeds, dtype=np.float64)
+    ]
 
 
 def static_response(

@@ -134,9 +134,7 @@ def reduction_report(
         for shaft, number in ((model, count), (reduced, count + 8))
     )
     exact = np.array([modes.eigenvalues for modes in wanted])
-    nearest = np.array(
-        [_matched(a, modes.eigenvalues) for a, modes in zip(exact, offered, strict=True)]
-    )
+    nearest = np.array([matched(a, modes.eigenvalues) for a, modes in zip(exact, offered, strict=True)])
     static = [static_response(shaft, bearings)[1][:, :2] for shaft in (model, reduced)]
     forces = [
         np.array([r.wrench[:, :2] for r in unbalance_responses(shaft, speeds, bearings, unbalance)])
@@ -155,7 +153,13 @@ def reduction_report(
     )
 
 
-def _matched(exact: Complex, offered: Complex) -> Complex:
-    """The offered eigenvalues that belong to the exact ones: least sum of distances, each used once."""
+def matched(exact: Complex, offered: Complex) -> Complex:
+    """The offered eigenvalues that belong to the exact ones: least sum of distances, each used once.
+
+    Parameters
+    ----------
+    exact, offered : ndarray of complex, (k,), (l,)
+        With l >= k.
+    """
     _, chosen = linear_sum_assignment(np.abs(exact[:, None] - offered))
     return offered[chosen]

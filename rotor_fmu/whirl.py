@@ -6,7 +6,6 @@ stiffness and damping, solved for the eigenvalues of least modulus.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,7 +13,7 @@ import numpy as np
 import scipy.linalg as sl
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.assembly import ShaftModel
 from rotor_fmu.reduction import ReducedShaft
@@ -111,11 +110,7 @@ def whirl_modes(
         Of least modulus, ascending in frequency.
     """
     n = shaft.M.shape[0]
-    mass, damping, stiffness = system_matrices(shaft, speed, bearings)
-    if n <= _DENSE:
-        values, vectors = _dense_modes(*(_to_dense(A) for A in (mass, damping, stiffness)))
-    else:
-        values, vectors = _sparse_modes(mass, damping, stiffness, min(2 * count + 16, 2 * n - 2))
+    values, vectors = eigenmodes(*system_matrices(shaft, speed, bearings), 2 * count + 16)
     kept = np.flatnonzero(values.imag > above)
     kept = kept[np.argsort(np.abs(values[kept]))][:count]
     kept = kept[np.argsort(values[kept].imag)]
@@ -124,6 +119,21 @@ def whirl_modes(
         shapes = shaft.T @ shapes
     deflection = np.abs(shapes.reshape(-1, 4, len(kept))[:, :2]).max(axis=(0, 1))
     return WhirlModes(values[kept], shapes / deflection)
+
+
+def half_axes(x: Complex, y: Complex) -> tuple[Array, Array, Array]:
+    """Elliptic orbits of the phasors x and y: half axes, and direction from -1, backward, to 1, forward.
+
+    x + i y turns as f exp(i w t) + b exp(-i w t) with f = (x + i y) / 2 and b = conj(x - i y) / 2.
+
+    Returns
+    -------
+    major, minor, direction : ndarray
+        Of the shape of x and y.
+    """
+    forward, backward = np.abs(x + 1j * y) / 2.0, np.abs(x - 1j * y) / 2.0
+    total = np.maximum(forward**2 + backward**2, np.finfo(np.float64).tiny)
+    return forward + backward, np.abs(forward - backward), (forward**2 - backward**2) / total
 
 
 def system_matrices(
@@ -154,14 +164,35 @@ def journal_map(shaft: ShaftModel | ReducedShaft) -> sp.csr_array:
 
 def campbell(
     shaft: ShaftModel | ReducedShaft,
-    speeds: Sequence[float],
+    speeds: ArrayLike,
     count: int,
     *,
     bearings: Bearings | None = None,
     above: float = 0.1,
 ) -> list[WhirlModes]:
     """Whirl modes over speed with the same bearings at all speeds; parameters as for `whirl_modes`."""
-    return [whirl_modes(shaft, speed, count, bearings=bearings, above=above) for speed in speeds]
+    return [
+        whirl_modes(shaft, speed, count, bearings=bearings, above=above)
+        for speed in np.asarray(speeds, dtype=np.float64)
+    ]
+
+
+def eigenmodes(
+    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
+) -> tuple[Complex, Complex]:
+    """Eigenvalues [1/s] of least modulus of M q'' + D q' + K q = 0, at least `count`, and their vectors.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : scipy.sparse.csc_array, (n, n)
+        Real or complex; the mass positive definite.
+    count : int
+        Wanted; all 2 n are returned of a small system, and never more.
+    """
+    n = mass.shape[0]
+    if n <= _DENSE:
+        return _dense_modes(*(_to_dense(A) for A in (mass, damping, stiffness)))
+    return _sparse_modes(mass, damping, stiffness, min(count, 2 * n - 2))
 
 
 def _dense_modes(mass: Array, damping: Array, stiffness: Array) -> tuple[Complex, Complex]:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from matplotlib import colormaps
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 if TYPE_CHECKING:
@@ -26,6 +28,23 @@ CENTRE_LINE = "#4D4D4D"
 EVENT = "#000000"
 MEAN = "#000000"
 CONTACT = "#AA0055"
+WHIRL_COLOURS = {"forward": "#0072B2", "backward": "#E69F00"}
+WHIRL_MAP = LinearSegmentedColormap.from_list("whirl", ["#E69F00", "#999999", "#0072B2"])
+"""From backward over planar to forward."""
+UNREDUCED = "#000000"
+REDUCTION_LOOKS = {
+    "irs": ("#D55E00", "o", 5.0),
+    "irs-plain": ("#CC79A7", "D", 4.5),
+    "guyan": ("#009E73", "^", 5.5),
+    "craig-bampton": ("#56B4E9", "s", 7.5),
+}
+"""Colour, marker and its size in points of each reduction."""
+REDUCTION_NAMES = {
+    "irs": "IRS complemented\n(default)",
+    "irs-plain": "IRS plain",
+    "guyan": "Guyan",
+    "craig-bampton": "CMS\n(Craig-Bampton)",
+}
 FONT = 9.0
 DPI = 150
 
@@ -42,6 +61,25 @@ def depth_at(record: xr.Dataset, bearing: str | None = None) -> str:
 def colour_of(depth: str) -> str:
     """The colour of a modelling depth, the same in every figure."""
     return DEPTH_COLOURS.get(depth, OTHER_COLOUR)
+
+
+def reduction_look(name: str) -> tuple[str, str, float]:
+    """Colour, marker and its size of a reduction; variants of one share its colour and have no marker."""
+    if name in REDUCTION_LOOKS:
+        return REDUCTION_LOOKS[name]
+    kind = name.partition(",")[0]
+    return REDUCTION_LOOKS.get(kind, ("#222222", "", 0.0))[0], "", 0.0
+
+
+def reduction_name(name: str) -> str:
+    """A reduction as figures and tables name it, in one or two lines; other names as they are."""
+    kind, comma, variant = name.partition(",")
+    return REDUCTION_NAMES.get(kind, kind) + (f"\n({variant.strip()})" if comma else "")
+
+
+def along_the_shaft(count: int) -> list[tuple[float, ...]]:
+    """Colours of places in their order along the shaft."""
+    return [colormaps["turbo"](0.05 + 0.9 * k / max(count - 1, 1)) for k in range(count)]
 
 
 def depth_name(depth: str) -> str:

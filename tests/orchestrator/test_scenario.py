@@ -85,7 +85,7 @@ def test_every_problem_is_reported_at_once(scenario_file):
         "end = -1.0; allowed is a number greater than 0",
         "stepp: unknown key; did you mean 'step'? allowed are title, train, reduction",
         "depth = 'v4'; allowed are v1, v2, v3",
-        "reduction = 'irz'; did you mean 'irs'? allowed are irs, guyan, craig-bampton, none",
+        "reduction = 'irz'; did you mean 'irs'? allowed are irs, irs-plain, guyan, craig-bampton, none",
         "coupling = 'linear implicit'; did you mean 'linear-implicit'? allowed are linear-implicit, gauss",
         "depth_at.rear = 'V3'; did you mean 'v3'? allowed are v1, v2, v3",
         "unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",

@@ -1,0 +1,63 @@
+"""What the commands share: choices of options, and how a command ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+
+import typer
+
+
+class Depth(StrEnum):
+    """Modelling depth of a bearing."""
+
+    V1 = "v1"
+    V2 = "v2"
+    V3 = "v3"
+
+
+class Coupling(StrEnum):
+    """How rotor and bearings exchange values."""
+
+    LINEAR_IMPLICIT = "linear-implicit"
+    GAUSS_SEIDEL = "gauss-seidel"
+    JACOBI = "jacobi"
+
+
+class Reduction(StrEnum):
+    """Reduction of the shaft."""
+
+    IRS = "irs"
+    IRS_PLAIN = "irs-plain"
+    GUYAN = "guyan"
+    CRAIG_BAMPTON = "craig-bampton"
+    NONE = "none"
+
+
+class Format(StrEnum):
+    """File type of a figure."""
+
+    PNG = "png"
+    PDF = "pdf"
+    SVG = "svg"
+
+
+def guarded(work: Callable[[], int]) -> None:
+    """Do the work; an error of the input becomes its text on stderr and exit status 2."""
+    from orchestrator.errors import OrchestratorError
+    from orchestrator.exit_status import INPUT_ERROR, STATUS
+    from orchestrator.outcome import Outcome
+    from rotor_fmu.train_file import TrainFileError
+
+    try:
+        status = work()
+    except (OrchestratorError, TrainFileError) as error:
+        typer.secho(f"error: {error}", err=True, fg="red")
+        status = INPUT_ERROR
+    except OSError as error:
+        typer.secho(f"error: {error}", err=True, fg="red")
+        status = 1
+    except KeyboardInterrupt:
+        typer.secho("interrupted; nothing was written", err=True, fg="red")
+        status = STATUS[Outcome.INTERRUPTED]
+    raise typer.Exit(status)
