@@ -34,7 +34,7 @@ class RunRequest:
     Attributes
     ----------
     source : str
-        Name of a bundled scenario or path of a TOML file.
+        Name of a bundled scenario, path of a TOML file or of an SSP.
     overrides : mapping
         Values in place of the scenario's, in the shape of the file.
     out : Path or None
@@ -63,7 +63,7 @@ def default_folder(source: str, scenario: Scenario) -> Path:
 
 
 def run(request: RunRequest, console: Console, errors: Console) -> int:
-    """Run a scenario, write its results, say what came out.
+    """Run a scenario or an SSP, write its results, say what came out.
 
     Parameters
     ----------
@@ -82,18 +82,41 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     OrchestratorError
         For anything wrong with the input; nothing is written then.
     """
+    if request.source.endswith(".ssp"):
+        from orchestrator.ssp.run_command import run_ssp
+
+        return run_ssp(request, console, errors)
     scenario = load_scenario(request.source, request.overrides)
     train = train_of(scenario)
+    check_bearing(request, train)
+    folder = request.out or default_folder(request.source, scenario)
+    check_folder(folder)
+    depths = {scenario.depth_of(seat.name) for seat in train.bearings}
+    ensure_fmus(request.fmus, train, depths, console)
+    with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
+        result = simulate(scenario, request.fmus, progress)
+    return conclude(result, scenario, train, request, folder, console, errors)
+
+
+def check_bearing(request: RunRequest, train: Train) -> None:
+    """Raise OrchestratorError when the train lacks the bearing that is asked for."""
     names = [seat.name for seat in train.bearings]
     if request.bearing is not None and request.bearing not in names:
         raise OrchestratorError(
             f"--bearing {request.bearing}: unknown bearing; allowed are {', '.join(names)}"
         )
-    folder = request.out or default_folder(request.source, scenario)
-    check_folder(folder)
-    ensure_fmus(request.fmus, train, {scenario.depth_of(name) for name in names}, console)
-    with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        result = simulate(scenario, request.fmus, progress)
+
+
+def conclude(
+    result: Result,
+    scenario: Scenario,
+    train: Train,
+    request: RunRequest,
+    folder: Path,
+    console: Console,
+    errors: Console,
+) -> int:
+    """Write what a run gave, say what came out, and return the exit status."""
     summary = summarise(result, analysed=request.bearing)
     console.print(SummaryTable(summary))
     if not result.outcome.ok:

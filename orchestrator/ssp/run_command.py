@@ -1,0 +1,60 @@
+"""``bladeloss run FILE.ssp``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from orchestrator.interrupt import interrupt_between_steps
+from orchestrator.progress import show_progress
+from orchestrator.result_folder import check_folder
+from orchestrator.run_command import check_bearing, conclude
+from orchestrator.ssp.simulate import SspRun
+from orchestrator.ssp.structure import SspError
+
+if TYPE_CHECKING:
+    from orchestrator.run_command import RunRequest
+
+_ALLOWED = ("end", "step", "coupling")
+
+
+def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
+    """Run an SSP as it stands, on the FMUs inside it.
+
+    Parameters
+    ----------
+    request : RunRequest
+        Of its overrides end, step and coupling are allowed.
+    console, errors : rich.console.Console
+        For output and for what went wrong.
+
+    Returns
+    -------
+    int
+        Exit status, see `orchestrator.exit_status`.
+
+    Raises
+    ------
+    OrchestratorError
+        For anything wrong with the input; nothing is written then.
+    """
+    for key in request.overrides:
+        if key not in _ALLOWED:
+            option = key.replace("_", "-")
+            raise SspError(
+                f"{request.source}: --{option} is for scenarios; an SSP holds its FMUs and parameters, "
+                "allowed are --end, --step, --coupling"
+            )
+    path = Path(request.source)
+    folder = request.out or Path("results") / path.stem
+    check_folder(folder)
+    with SspRun(path, request.overrides) as prepared:
+        check_bearing(request, prepared.train)
+        with (
+            show_progress(prepared.scenario.end, console) as show,
+            interrupt_between_steps(show) as progress,
+        ):
+            result = prepared.simulate(progress)
+        return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors)
