@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator import cli_linear
+from orchestrator import cli_linear, cli_ssp
 from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
 
 app = typer.Typer(
@@ -23,6 +23,7 @@ app = typer.Typer(
     pretty_exceptions_show_locals=False,
 )
 cli_linear.register(app)
+cli_ssp.register(app)
 
 
 RUN_HELP = (
@@ -40,6 +41,7 @@ RUN_EPILOG = """\
   bladeloss run                                the reference scenario
   bladeloss run --depth v2                     the same with aligned films
   bladeloss run --depth-at LP2-front=v2        v1, but for one bearing
+  bladeloss run --depth-at LP2-front=own.fmu   your own bearing there
   bladeloss run small                          a small train: some seconds
   bladeloss run my.toml --end 0.5 --out cut    your own, cut short
 
@@ -78,7 +80,7 @@ def bladeloss(
 @app.command(help=RUN_HELP, epilog=RUN_EPILOG)
 def run(
     scenario: Annotated[
-        str, typer.Argument(help="A bundled scenario (see [bold]bladeloss info[/bold]) or a TOML file.")
+        str, typer.Argument(help="A bundled scenario (see [bold]bladeloss info[/bold]), a TOML or SSP file.")
     ] = "paper",
     depth: Annotated[
         Depth | None,
@@ -86,7 +88,7 @@ def run(
     ] = None,
     depth_at: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=DEPTH", help="One bearing, e.g. LP2-front=v2; repeatable."),
+        typer.Option(metavar="NAME=DEPTH", help="One bearing: LP2-front=v2, or your own FMU; repeatable."),
     ] = None,
     coupling: Annotated[
         Coupling | None,
@@ -150,8 +152,11 @@ def build(
         list[str],
         typer.Option(metavar="TRAIN", help="Bundled train or folder with train.toml; repeatable."),
     ] = ["turbine"],  # noqa: B006
+    ssp: Annotated[
+        bool, typer.Option(help="With the turbine: also bladeloss.ssp, the reference scenario.")
+    ] = True,
 ) -> None:
-    """Build the FMUs: the rotor of a train, and a bearing of each depth.
+    """Build the FMUs: the rotor of a train, and a bearing of each depth; and the SSP.
 
     For other FMI tools; [bold]bladeloss run[/bold] builds what it needs by itself. The same
     sources give the same bytes.
@@ -163,6 +168,10 @@ def build(
         from orchestrator.fmu_folder import build_all
 
         build_all(out, train, Console())
+        if ssp and "turbine" in train:
+            from orchestrator.ssp.export_command import DEFAULT_NAME, DEFAULT_SCENARIO, export_scenario
+
+            export_scenario(DEFAULT_SCENARIO, out / f"{DEFAULT_NAME}.ssp", out, Console())
         return 0
 
     guarded(work)
@@ -188,12 +197,14 @@ def _assignments(items: list[str]) -> dict[str, str]:
     found: dict[str, str] = {}
     for item in items:
         name, equals, depth = (part.strip() for part in item.partition("="))
-        if not (name and equals and depth in list(Depth)):
+        fmu = depth.endswith(".fmu")
+        if not (name and equals and (fmu or depth in list(Depth))):
             allowed = ", ".join(Depth)
             raise typer.BadParameter(
-                f"{item!r} is not NAME=DEPTH with a depth of {allowed}", param_hint="--depth-at"
+                f"{item!r} is not NAME=DEPTH with a depth of {allowed}, or the path of an .fmu file",
+                param_hint="--depth-at",
             )
-        found[name] = depth
+        found[name] = str(Path(depth).absolute()) if fmu else depth
     return found
 
 
