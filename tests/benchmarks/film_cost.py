@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from functools import partial
-from importlib.util import find_spec
 from time import process_time
 
 import numpy as np
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import force_unit, lever, plain, table
 from tests.benchmarks.finite_volumes import UniformFilm
+from tests.benchmarks.ross_bearing import compare_with_ross
 from tests.benchmarks.table import least_time, percent, show
 
 Array = NDArray[np.float64]
@@ -95,48 +95,7 @@ def main() -> None:
         rows,
         "\n".join(speed_up(kernels, grids, allowed) for allowed in (ONE_PER_CENT, default)),
     )
-    ross()
-
-
-def ross() -> None:
-    """Time ROSS's isoviscous plain journal bearing where it is installed."""
-    if find_spec("ross") is None:
-        print("ROSS (rotordynamics in Python) is not installed: its plain journal bearing is left out.")
-        return
-    import ross as rs
-
-    bearing = {
-        "axial_length": 0.64,
-        "journal_radius": 0.40,
-        "radial_clearance": 8.62e-4,
-        "elements_circumferential": 48,
-        "elements_axial": 8,
-        "n_pad": 1,
-        "pad_arc_length": 360.0,
-        "preload": 0.0,
-        "geometry": "circular",
-        "reference_temperature": 50.0,
-        "frequency": rs.Q_([1500.0], "RPM"),
-        "fxs_load": 0.0,
-        "fys_load": -1.0e6,
-        "groove_factor": [0.0],
-        "lubricant": "ISOVG32",
-        "sommerfeld_type": 2,
-        "initial_guess": [0.5, -0.9],
-        "method": "perturbation",
-        "operating_type": "flooded",
-        "oil_supply_pressure": 0.0,
-        "oil_flow_v": rs.Q_(100.0, "l/min"),
-        "show_coeffs": False,
-    }
-    try:
-        seconds = least_time(lambda: rs.PlainJournal(n=0, **bearing), repeats=1, rounds=1)
-    except Exception as failure:
-        print(f"ROSS {rs.__version__}: its plain journal bearing did not run here ({failure}).")
-        return
-    print(
-        f"ROSS {rs.__version__}, plain journal bearing, equilibrium and coefficients: {1e3 * seconds:.0f} ms."
-    )
+    compare_with_ross()
 
 
 if __name__ == "__main__":
