@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Source = Annotated[
     str,
     typer.Argument(
-        metavar="[SCENARIO|TRAIN]",
+        metavar="SCENARIO|TRAIN",
         help="Bundled scenario or train (see [bold]bladeloss info[/bold]), TOML file, or a train's folder.",
     ),
 ]

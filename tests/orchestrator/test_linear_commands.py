@@ -1,0 +1,207 @@
+"""The commands campbell, modes, harmonic and reductions on the small train."""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from rich.console import Console
+from typer.testing import CliRunner
+
+from orchestrator import exit_status, linear_case
+from orchestrator.assembly import assemble
+from orchestrator.cli import app
+from orchestrator.equilibrium import find_start
+from orchestrator.errors import EquilibriumError
+from orchestrator.figures.campbell import free_figure
+from orchestrator.fmu_file import FmuStore
+from orchestrator.outcome import Outcome
+from orchestrator.scenario_file import load_scenario, train_of
+from rotor_fmu.train_file import load_train
+
+COMMANDS = {
+    "campbell": ("campbell", "small", "--count", "4"),
+    "campbell-supported": ("campbell", "small", "--supported", "--count", "4"),
+    "modes": ("modes", "small", "--count", "6"),
+    "harmonic": ("harmonic", "small", "--to", "60"),
+    "reductions": ("reductions", "small"),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Results of all commands, in results/, and what they printed."""
+    folder = tmp_path_factory.mktemp("linear")
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        for name, arguments in COMMANDS.items():
+            result = CliRunner().invoke(app, [*arguments], env={"COLUMNS": "100", "TERM": "dumb"})
+            assert result.exit_code == 0, result.output
+            (folder / f"{name}.said").write_text(result.output)
+    finally:
+        os.chdir(before)
+    return folder
+
+
+def data(folder, command, name=None):
+    with xr.open_dataset(
+        folder / f"results/small-{command}/{name or command}.nc", engine="h5netcdf"
+    ) as found:
+        return found.load()
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_file_is_written_and_named(folder, command):
+    said = (folder / f"{command}.said").read_text()
+    named = re.findall(r"^results/\S+$", said, flags=re.MULTILINE)
+    written = sorted(
+        path.relative_to(folder).as_posix() for path in (folder / f"results/small-{command}").iterdir()
+    )
+    assert sorted(named) == written
+    expected = {f"{command}.nc", f"{command}.csv", f"{command}.txt"}
+    expected |= set() if command == "reductions" else {f"{command}.png"}
+    assert expected <= {Path(path).name for path in written}
+    for path in written:
+        assert (folder / path).stat().st_size > 100
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_data_carry_units_and_what_they_are_of(folder, command):
+    for path in (folder / f"results/small-{command}").glob("*.nc"):
+        found = data(folder, command, path.stem)
+        assert found.attrs["train"] == "small" and found.attrs["title"]
+        assert 'train = "small"' in found.attrs["scenario"]
+        for name, variable in found.data_vars.items():
+            assert variable.attrs["units"], f"{path.name}: {name}"
+        with path.with_suffix(".csv").open(newline="") as file:
+            head, *lines = csv.reader(file)
+        assert len(lines) == math.prod(found.sizes.values())
+        for name, variable in found.data_vars.items():
+            assert f"{name} [{variable.attrs['units']}]" in head
+
+
+def test_free_campbell_errors_are_those_of_the_frequencies(folder):
+    found = data(folder, "campbell")
+    assert found["rotation"].values[[0, -1]] == pytest.approx([0.0, 50.0])
+    exact = found["frequency"].sel(shaft="unreduced")
+    assert np.all(exact.sel(direction="forward")[1:] > exact.sel(direction="backward")[1:])
+    expected = found["frequency"] / exact - 1.0
+    assert found["error"].values == pytest.approx(expected.values, abs=1e-12)
+    worst = abs(found["error"]).max(["rotation", "direction", "mode"])
+    assert float(worst.sel(shaft="irs")) < 1e-4 < float(worst.sel(shaft="guyan"))
+    assert data(folder, "campbell", "irs-iterations").sizes["iteration"] == 51
+
+
+def test_unreduced_modes_are_the_same_in_both_commands(folder):
+    modes, diagram = data(folder, "modes"), data(folder, "campbell-supported")
+    here = diagram.sel(shaft="unreduced").sel(rotation=50.0)
+    for name in ("frequency", "damping_ratio", "whirl_direction"):
+        assert modes[name].values == pytest.approx(here[name].values[:6], rel=1e-6, abs=1e-8)
+
+
+def test_mode_shapes_are_scaled_to_their_largest_orbit(folder):
+    modes = data(folder, "modes")
+    x, y = (modes[f"{axis}_real"] + 1j * modes[f"{axis}_imaginary"] for axis in "xy")
+    major = (abs(x + 1j * y) + abs(x - 1j * y)) / 2.0
+    assert major.max("node").values == pytest.approx(np.ones(6))
+
+
+def test_response_at_rated_speed_is_the_orbit_that_a_run_starts_from(folder):
+    """The rotor unit's 1X orbit on the affine laws, found by its own reduced solution."""
+    scenario = load_scenario("small")
+    train = train_of(scenario)
+    with FmuStore() as store:
+        system = assemble(scenario, train, folder / "fmus", store)
+        try:
+            start = find_start(system, train.bearings, train.speed, train.nodes)
+        finally:
+            system.close()
+    x, y = (start.cosine[:, i] - 1j * start.sine[:, i] for i in range(2))
+    expected = (np.abs(x + 1j * y) + np.abs(x - 1j * y)) / 2.0
+    found = data(folder, "harmonic", "amplitudes")["amplitude"].sel(rotation=50.0, shaft="unreduced")
+    assert found.sel(place=[seat.name for seat in train.bearings]).values == pytest.approx(expected, rel=1e-6)
+
+
+def test_bearings_of_the_operating_point_are_written(folder):
+    found = data(folder, "modes", "bearings")
+    assert found["stiffness"].dims == ("bearing", "wrench", "displacement")
+    assert np.all(found["stiffness"].sel(wrench="Fy", displacement="y") > 0.0)
+    assert np.all(found["damping"].sel(wrench="Fy", displacement="y") > 0.0)
+
+
+def test_reductions_report_where_each_is_exact(folder):
+    error = data(folder, "reductions")["error"].max("rotation")
+    static = error.sel(quantity="static bearing loads")
+    assert float(static.sel(shaft="irs")) < 1e-9 < float(static.sel(shaft="irs-plain"))
+    said = (folder / "reductions.said").read_text()
+    assert "Iterated IRS" in said and "bearing forces from unbalance" in said
+
+
+def test_figure_axes_are_labelled_and_legends_lie_beside_the_data(folder):
+    figure = free_figure(
+        data(folder, "campbell"), data(folder, "campbell", "irs-iterations"), load_train("small")
+    )
+    figure.canvas.draw()
+    assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
+    diagram = figure.axes[0]
+    assert (diagram.get_xlabel(), diagram.get_ylabel()) == ("speed of rotation [Hz]", "frequency [Hz]")
+    for axes in figure.axes:
+        inside = axes.get_window_extent().shrunk(0.999, 0.999)
+        assert not inside.overlaps(axes.get_legend().get_window_extent())
+
+
+@pytest.mark.parametrize("command", ["campbell", "modes", "harmonic", "reductions"])
+def test_help_teaches(command):
+    text = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "120", "TERM": "dumb"}).output
+    assert f"bladeloss {command}" in text and "Exit status" in text and "--depth" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (("campbell", "nothing"), ("nothing", "turbine")),
+        (("modes", "nowhere.toml"), ("nowhere.toml", "paper")),
+        (("harmonic", "small", "--to", "-3"), ("--to", "1")),
+        (("campbell", "small", "--count", "20"), ("--count 20", "ask for fewer")),
+        (("modes", "small", "--depth", "v9"), ("--depth", "v9", "v1")),
+    ],
+)
+def test_wrong_input_is_named_and_leaves_nothing(tmp_path, monkeypatch, arguments, named):
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, [*arguments], env={"COLUMNS": "200", "TERM": "dumb"})
+    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    text = re.sub(r"\s+", " ", result.output)
+    assert all(word in text for word in named)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_equilibrium_has_its_own_exit_status(folder, tmp_path, monkeypatch):
+    def fail(*_):
+        raise EquilibriumError("front: no film at the trial position")
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(linear_case, "operating_point", fail)
+    result = CliRunner().invoke(app, ["modes", "small", "--fmus", str(folder / "fmus")])
+    assert result.exit_code == exit_status.STATUS[Outcome.NO_EQUILIBRIUM]
+    assert "front: no film" in result.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_depth_and_unbalance_come_from_the_scenario(tmp_path):
+    text = 'train = "small"\nend = 0.1\ndepth = "v3"\n[unbalance]\ngrade = 5e-3\n[unbalance.at.wheel-2]\n'
+    (tmp_path / "mine.toml").write_text(text + "unbalance = 0.01\nphase = 1.5\n")
+    request = linear_case.LinearRequest("modes", str(tmp_path / "mine.toml"), out=tmp_path / "out")
+    case = linear_case.linear_case(request, Console(quiet=True))
+    train = case.train
+    expected = np.array(train.nominal_unbalance, complex) * 5e-3 / train.balance_grade
+    expected *= np.exp(1j * np.array([wheel.unbalance_phase for wheel in train.wheels]))
+    expected[[wheel.name for wheel in train.wheels].index("wheel-2")] = 0.01 * np.exp(1.5j)
+    assert case.unbalance == pytest.approx(expected)
+    assert "V3" in case.films
