@@ -17,7 +17,9 @@ OF_FMUS_FOR_THE_MASTER = {"fmus.port", "fmus.variable", "fmus.build", "fmus.arch
 
 
 def modules(package):
-    return sorted((REPOSITORY / package).rglob("*.py"))
+    """All modules of a package; scripts beside the data use the packages, and no package uses them."""
+    folder = REPOSITORY / package
+    return sorted(p for p in folder.rglob("*.py") if "data" not in p.relative_to(folder).parts)
 
 
 def short(path):
