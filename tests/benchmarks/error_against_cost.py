@@ -18,8 +18,8 @@ STEPS = (6e-4, 4e-4, 3e-4, 2e-4, 1.5e-4, 1.2e-4, 1e-4, 5e-5)
 """Macro steps of couplings that are stable at any step of interest [s]."""
 
 EXPLICIT_STEPS = {
-    "small": {"gauss-seidel": (1e-5, 4e-6, 3e-6, 2e-6), "jacobi": (4e-6, 2e-6, 1e-6)},
-    "paper": {"gauss-seidel": (1e-5, 4e-6, 2e-6), "jacobi": (4e-6,)},
+    "small": {"gauss-seidel": (1e-5, 4e-6, 3e-6), "jacobi": (2e-6, 1e-6)},
+    "paper": {"gauss-seidel": (1e-5, 4e-6, 1e-6), "jacobi": (4e-6,)},
 }
 """Of the explicit ones, down to where they are accurate or a minute is not enough [s]."""
 

@@ -72,8 +72,9 @@ def compare_with_ross() -> None:
         return
     theirs, ours = example_of_ross(), equilibrium_of_v1()
     print(
-        f"Position and coefficients of one bearing under a load: ROSS, two pads with temperature, 11 x 3 cells: "
-        f"{theirs[0]:.2f} s, eccentricity {theirs[1]:.3f}; V1 48 x 8, full circle without temperature: "
+        "Position and coefficients of one bearing under a load: "
+        f"ROSS, two pads with temperature, 11 x 3 cells: {theirs[0]:.2f} s, eccentricity {theirs[1]:.3f}; "
+        "V1 48 x 8, full circle without temperature: "
         f"{1e3 * ours[0]:.2f} ms in {ours[2]} evaluations, eccentricity {ours[1]:.3f}"
     )
 
