@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator import cli_linear, cli_ssp
+from orchestrator import cli_compare, cli_linear, cli_ssp
 from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ app = typer.Typer(
     rich_markup_mode="rich",
     pretty_exceptions_show_locals=False,
 )
+cli_compare.register(app)
 cli_linear.register(app)
 cli_ssp.register(app)
 

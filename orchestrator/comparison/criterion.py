@@ -102,7 +102,7 @@ class Criterion:
         if self.target is not None:
             off = self.value / self.target - 1.0
             allowed = (self.high - self.target) / abs(self.target)
-            return f"{self.label}: {100 * off:+.0f} %, allowed ±{100 * allowed:.0f} %"
+            return f"{self.label}: {100 * off:+.3g} %, allowed ±{100 * allowed:.0f} %"
         too_large = self.value >= self.high
         bound = self.high if too_large else self.low
         words = (

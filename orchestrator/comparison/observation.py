@@ -57,6 +57,8 @@ class Condition:
 class StartTransient:
     """Whether the run begins in its steady state: the least gap at the two ends of the first phase [m].
 
+    Over whole revolutions, as many as fit into the window before the event.
+
     Attributes
     ----------
     first, last : Window
@@ -172,11 +174,20 @@ def _condition(record: xr.Dataset, bearing: str, phase: Phase, threshold: float)
 def _start(record: xr.Dataset, bearing: str, phase: Phase) -> StartTransient | None:
     time, gap = np.asarray(record["time"].values, dtype=float), series(record, "least_gap", bearing)
     span = phase.span
-    length = min(BEFORE, span.length / 2)
+    length = _whole_revolutions(record, min(BEFORE, span.length / 2))
     windows = Window(span.start, span.start + length), Window(span.end - length, span.end)
     masks = [window.mask(time) for window in windows]
-    if min(int(mask.sum()) for mask in masks) < 2:
+    if length == 0.0 or min(int(mask.sum()) for mask in masks) < 2:
         return None
     means = [time_mean(time[mask], gap[mask]) for mask in masks]
     harmonics = [half_peak_to_peak(gap[mask]) for mask in masks]
     return StartTransient(*windows, *means, *harmonics)
+
+
+def _whole_revolutions(record: xr.Dataset, length: float) -> float:
+    """The length of as many revolutions as fit [s]; the length itself where the speed is not recorded."""
+    speed = abs(float(record.attrs.get("speed", 0.0)))
+    if speed == 0.0:
+        return length
+    revolution = 2.0 * np.pi / speed
+    return float(np.floor(length / revolution + 1e-6) * revolution)

@@ -58,8 +58,8 @@ FULL_FILM = 5.0
 """Least gap over composite roughness from which a film separates the surfaces fully: hydrodynamic
 lubrication in Hamrock, Schmid and Jacobson, Fundamentals of Fluid Film Lubrication (2004), chapter 1."""
 STRESS_LIMIT = 150e6
-"""Nominal normal stress [Pa] from which a shaft is inspected: assumed, about half the rotating-bending fatigue
-limit of a smooth bar of NiCrMoV rotor steel, for notches."""
+"""Nominal normal stress [Pa] from which a shaft is inspected: assumed, about half the rotating-bending
+fatigue limit of a smooth bar of NiCrMoV rotor steel, for notches."""
 
 TRAIN = "turbine"
 """The train whose data were fitted to these figures; any other machine is not expected to meet them."""

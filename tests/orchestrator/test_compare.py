@@ -1,0 +1,197 @@
+"""``bladeloss compare``: on the small train, with a finer check, with runs that die, with wrong input."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sysconfig
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+from typer.testing import CliRunner
+
+from orchestrator import compare_command, exit_status
+from orchestrator.cli import app
+from orchestrator.compare_command import CompareRequest, refine
+from orchestrator.comparison.worker import Ended, simulate_task
+from orchestrator.outcome import Outcome
+from orchestrator.record_files import read_record
+from orchestrator.scenario_file import load_scenario
+
+SHORT = """\
+title = "Short"
+train = "small"
+analysed_bearing = "rear"
+end = 0.05
+[event]
+wheel = "wheel-2"
+unbalance = 0.05
+time = 0.04
+"""
+RUN = ["record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
+FIGURES = [
+    "all-bearings.png",
+    "deformed-train.png",
+    "forces-and-moments.png",
+    "least-gap.png",
+    "normal-stress.png",
+    "vibration-amplitude.png",
+]
+
+
+def files(folder):
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+
+
+@pytest.fixture(scope="module")
+def compared(tmp_path_factory):
+    """A short comparison with its check, as a user would start it."""
+    folder = tmp_path_factory.mktemp("compare")
+    (folder / "short.toml").write_text(SHORT)
+    command = [str(Path(sysconfig.get_path("scripts")) / "bladeloss"), "compare", "short.toml", "--check"]
+    command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder, done.stdout
+
+
+def test_a_comparison_leaves_table_figures_and_runs(compared):
+    folder, said = compared
+    runs = [f"{depth}/{name}" for depth in ("v1", "v2", "v3") for name in RUN]
+    others = ["comparison.csv", "comparison.json", "comparison.txt"]
+    expected = others + [f"figures/{name}" for name in FIGURES] + runs + [f"check/{name}" for name in runs]
+    assert files(folder / "out") == sorted(expected)
+    assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]
+    for depth in ("v1", "v2", "v3"):
+        assert re.search(rf"{depth}  100 %|{depth}   100 %|{depth}  finished", said)
+        record = read_record(folder / "out" / depth)
+        assert set(record["depth"].values) == {depth}
+        assert record.attrs["analysed_bearing"] == "rear"
+    assert said.rstrip().endswith("Results in out")
+
+
+def test_the_check_is_finer_and_told(compared):
+    folder, _ = compared
+    data = json.loads((folder / "out" / "comparison.json").read_text())
+    assert data["settings"] == {"macro_step": 2e-4, "columns": 24, "film_rows": 4, "end": 0.05}
+    assert data["check"]["settings"] == {"macro_step": 1e-4, "columns": 48, "film_rows": 8, "end": 0.05}
+    assert len(data["check"]["changes"]) == 14
+    text = (folder / "out" / "comparison.txt").read_text()
+    assert "Check: film 48 x 8, macro step 0.1 ms in place of film 24 x 4, macro step 0.2 ms" in text
+    force = next(item for item in data["check"]["changes"] if item["row"] == 1)
+    assert 0 < abs(force["largest"]) < 1e-3  # the weight is the weight
+
+
+def test_the_table_is_computed_from_the_runs(compared):
+    folder, _ = compared
+    data = json.loads((folder / "out" / "comparison.json").read_text())
+    assert data["complete"] and data["analysed_bearing"] == "rear"
+    by_number = {row["number"]: row for row in data["rows"]}
+    for depth, criterion in zip(("v1", "v2", "v3"), by_number[1]["criteria"], strict=True):
+        summary = json.loads((folder / "out" / depth / "summary.json").read_text())
+        (row,) = (r for r in summary["bearings"] if (r["bearing"], r["phase"]) == ("rear", "before"))
+        assert criterion["value"] == pytest.approx(row["force_mean"], rel=1e-12)
+    assert by_number[1]["verdict"] == "missed" and "another machine" in by_number[1]["reason"]
+    assert by_number[5]["criteria"][0]["value"] > 0  # the edge is nearer than the centre line
+    assert by_number[6]["criteria"][0]["value"] > by_number[5]["criteria"][0]["value"]
+    moments = {item["label"]: item["value"] for item in by_number[13]["criteria"]}
+    assert moments["moment V2"] == moments["moment V3"] == 0.0
+    assert [item["depth"] for item in data["conclusions"]] == ["v1", "v2", "v3"]
+
+
+def test_the_runs_start_in_their_steady_state(compared):
+    """Static state plus linear unbalance response: the first revolution is like the last before the event."""
+    folder, _ = compared
+    data = json.loads((folder / "out" / "comparison.json").read_text())
+    for observation in data["observations"].values():
+        start = observation["start"]
+        assert start["first"] == pytest.approx({"start": 0.0, "end": 0.02})
+        assert start["last"] == pytest.approx({"start": 0.02, "end": 0.04})
+        assert start["mean_last"] == pytest.approx(start["mean_first"], rel=5e-3)
+        assert start["harmonic_last"] == pytest.approx(start["harmonic_first"], rel=0.05)
+
+
+def dies_at_v2(task, connection, stop):
+    if task.name == "v2":
+        os.kill(os.getpid(), signal.SIGKILL)
+    simulate_task(task, connection, stop)
+
+
+def is_refused(_task, connection, _stop):
+    connection.send(Ended(Outcome.STEP_REFUSED.value, "front: the gap closed", "Smaller.", 0.0, 0.0))
+
+
+@pytest.fixture
+def here(compared, monkeypatch):
+    """A folder with the scenario and its FMUs."""
+    folder, _ = compared
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def run(tmp_path, work, **request):
+    """The command with another kind of work; its status, what it said, and what it said of errors."""
+    with (tmp_path / "said").open("w+") as said, (tmp_path / "errors").open("w+") as errors:
+        consoles = Console(file=said, width=200), Console(file=errors, width=200)
+        status = compare_command.run(CompareRequest("short.toml", **request), *consoles, work=work)
+        said.seek(0)
+        errors.seek(0)
+        return status, said.read(), errors.read()
+
+
+def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
+    out = tmp_path / "out"
+    status, said, errors = run(tmp_path, dies_at_v2, out=out, check=True)
+    assert status == exit_status.PROCESS_DIED
+    assert "v2 not finished: process-died" in errors and "SIGKILL" in errors
+    assert "PARTIAL: V2 process-died" in said and "Check with" not in said
+    assert not out.exists()
+    partial = tmp_path / "out-partial"
+    assert "v2 process-died" in (partial / "PARTIAL.txt").read_text()
+    assert files(partial / "figures") == FIGURES
+    data = json.loads((partial / "comparison.json").read_text())
+    assert data["complete"] is False and data["runs"]["v2"]["outcome"] == "process-died"
+    verdicts = {row["number"]: row["verdict"] for row in data["rows"]}
+    assert verdicts[1] == verdicts[11] == "not evaluated" != verdicts[3]
+    assert data["conclusions"][1]["action"] == "no conclusion"
+
+
+def test_runs_that_left_nothing_give_the_status_and_no_folder(here, tmp_path):
+    status, said, errors = run(tmp_path, is_refused, out=tmp_path / "out")
+    assert status == exit_status.STATUS[Outcome.STEP_REFUSED]
+    assert errors.count("step-refused at t = 0 s: front: the gap closed") == 3
+    assert "14 not evaluated of 14 rows" in said
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["errors", "said"]
+
+
+def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
+    fine = refine(load_scenario("small"))
+    assert (fine.film.columns, fine.film.rows, fine.step) == (96, 16, 5e-5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["--bearing", "middle"], "analysed_bearing = 'middle': no such bearing"),
+        (["--columns", "4"], "film.columns = 4"),
+        (["--rows", "40", "--check"], "film.rows = 80"),
+        (["--out", "short.toml"], "is a file"),
+        (["--jobs", "0"], "--jobs"),
+    ],
+)
+def test_wrong_input_is_refused_before_anything_runs(here, arguments, named):
+    before = files(here)
+    result = CliRunner().invoke(app, ["compare", "short.toml", *arguments], env={"COLUMNS": "200"})
+    assert result.exit_code == exit_status.INPUT_ERROR
+    assert named in result.output
+    assert files(here) == before
+
+
+def test_help_tells_options_and_exit_statuses():
+    text = CliRunner().invoke(app, ["compare", "--help"], env={"COLUMNS": "120", "TERM": "dumb"}).output
+    options = "--end --step --columns --rows --bearing --jobs --check --out --fmus --format --no-figures"
+    for option in options.split():
+        assert option in text
+    assert re.search(rf"\b{exit_status.PROCESS_DIED}  ", text)
