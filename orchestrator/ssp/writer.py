@@ -23,6 +23,8 @@ NAMESPACES = {
 OSP, RUN = "com.opensimulationplatform", "bladeloss.run"
 """Types of the annotations: macro step as libcosim reads it, settings of the orchestrator."""
 
+_LISTS = ("Connectors", "Connections", "Units", "Parameters", "Annotations")
+
 DEFINITION = "SystemStructure.ssd"
 PARAMETER_SET = "initialValues"  # libcosim takes this one without being asked
 
@@ -132,6 +134,15 @@ def _names(*prefixes: str) -> dict[str, str]:
     return {f"xmlns:{prefix}": NAMESPACES[prefix] for prefix in prefixes}
 
 
+def _without_empty(element: Element) -> None:
+    """Take out lists without members, which the schema does not allow."""
+    for child in list(element):
+        _without_empty(child)
+        if not len(child) and child.tag.partition(":")[2] in _LISTS:
+            element.remove(child)
+
+
 def _text(root: Element) -> bytes:
+    _without_empty(root)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"

@@ -1,0 +1,1 @@
+"""The FMUs and the SSP in other people's tools."""
