@@ -103,6 +103,7 @@ def test_the_mechanisms_are_told_with_the_figures_of_the_run():
         found = spoiled(found, depth, "after", force_max=11e6)
     assert "the blade's 4.30 MN pass through the bearings" in rows(found)[11].reason
     assert "rear end" in rows(spoiled(runs(), "v1", "after", ends=(0.0, 1.0)))[9].reason
+    assert "first swing" in rows(spoiled(runs(), "v2", "after", amplitude_max=3e-3))[13].reason
     other = replace(spoiled(runs(), "v1", "before", force_mean=1e6), train="small")
     assert rows(other)[0].reason.startswith("another machine")
 
