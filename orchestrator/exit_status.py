@@ -13,6 +13,7 @@ STATUS = {
     Outcome.STEP_REFUSED: 4,
     Outcome.UNIT_FAILED: 5,
     Outcome.NOT_FINITE: 6,
+    Outcome.TOLERANCE_MISSED: 9,
     Outcome.INTERRUPTED: 130,
 }
 """Exit status of each outcome; 130 is what shells give for an interrupt."""

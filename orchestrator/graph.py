@@ -45,6 +45,9 @@ class Group:
         In the order in which they step.
     step_time, exchange_time : float
         Wall time so far in the units' steps, and in moving values to and from them, in s.
+    hold : ndarray
+        For each connection into the group what an input that holds through a step best has of the value
+        at the end: 1 where an output depends on it directly, else 1/2, the mean of both ends.
     """
 
     def __init__(self, graph: Graph, names: Iterable[str]) -> None:
@@ -58,14 +61,35 @@ class Group:
         self._gets = tuple(m.outputs.get for m in members)
         self.step_time = 0.0
         self.exchange_time = 0.0
+        self.hold = graph.hold[self._targets]
+        self._measure = np.unique(graph.measure[self._targets], return_inverse=True)[1]
 
     def feed(self) -> None:
         """Move the newest outputs along the connections into the inputs of these units."""
+        self.give(self._graph.outputs[self._sources])
+
+    def give(self, values: NDArray[np.float64]) -> None:
+        """Set the connected inputs of these units to values, in the order of `received`."""
         start = perf_counter()
-        self._graph.inputs[self._targets] = self._graph.outputs[self._sources]
+        self._graph.inputs[self._targets] = values
         for call in self._feeds:
             call()
         self.exchange_time += perf_counter() - start
+
+    def received(self) -> NDArray[np.float64]:
+        """Return the newest values of the outputs that are connected to these units."""
+        return self._graph.outputs[self._sources]
+
+    def lacking(self) -> NDArray[np.float64]:
+        """Return the newest values of the connected outputs less what these units were given."""
+        return self._graph.outputs[self._sources] - self._graph.inputs[self._targets]
+
+    def per_measure(self, sizes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return for each connection the largest size among those of the same unit and measure, never 0."""
+        largest = np.zeros(self._measure.max(initial=-1) + 1)
+        np.maximum.at(largest, self._measure, sizes)
+        largest[largest == 0.0] = 1.0
+        return largest[self._measure]
 
     def push(self) -> None:
         """Give these units all their inputs as they stand in `Graph.inputs`, connected or not."""
@@ -145,6 +169,9 @@ class Graph:
         The values of all units, one after the other.
     members : dict
         The units by name.
+    hold, measure : ndarray
+        For each input, see `Group.hold`; and a number that inputs of one unit in the same unit of
+        measurement share.
     """
 
     def __init__(
@@ -159,6 +186,9 @@ class Graph:
         links: dict[str, list[tuple[int, int]]] = {unit.name: [] for unit, _, _ in units}
         for c in connections:
             links[c.target].append((input_at[c.target, c.input], output_at[c.source, c.output]))
+        self.hold = np.concatenate([_hold(unit, names, travelling) for unit, names, travelling in units])
+        measures = [(unit.name, unit.variable(name).unit) for unit, names, _ in units for name in names]
+        self.measure = np.array([measures.index(measure) for measure in measures])
         self.members: dict[str, Member] = {}
         first_input = first_output = 0
         for unit, input_names, output_names in units:
@@ -188,6 +218,17 @@ class Graph:
     def group(self, names: Iterable[str]) -> Group:
         """Return the units of these names as a group."""
         return Group(self, names)
+
+
+def _hold(unit: Unit, inputs: Sequence[str], outputs: Sequence[str]) -> NDArray[np.float64]:
+    """1 for inputs on which a travelling output depends directly (all where nothing is said), else 1/2."""
+    direct: set[str] = set()
+    for output in unit.file.description.outputs:
+        if output.variable.name in outputs:
+            if output.dependencies is None:
+                return np.ones(len(inputs))
+            direct |= {variable.name for variable in output.dependencies}
+    return np.array([1.0 if name in direct else 0.5 for name in inputs])
 
 
 def _positions(parts: Iterable[tuple[str, Sequence[str]]]) -> dict[tuple[str, str], int]:

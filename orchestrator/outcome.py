@@ -33,6 +33,11 @@ class Outcome(Enum):
         "unit-failed",
         "A unit ended with an error that it cannot recover from; the message holds what it logged.",
     )
+    TOLERANCE_MISSED = (
+        "tolerance-missed",
+        "A step did not meet the tolerance even at a thousandth of its length; a coarser tolerance or the "
+        "coupling newton helps, or there is a jump in a unit.",
+    )
     NOT_FINITE = (
         "not-finite",
         "The coupled motion grew without bound; take a smaller step or the coupling linear-implicit.",

@@ -172,6 +172,7 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
         "speed": train.speed,
         "coupling": scenario.coupling,
         "macro_step": scenario.step,
+        **({} if scenario.tolerance is None else {"tolerance": scenario.tolerance}),
         "end_time": scenario.end,
         "reduction": scenario.reduction,
         "status": outcome.value,

@@ -53,7 +53,7 @@ class Recorder:
     """
 
     def __init__(self, system: System, nodes: int, steps: int, stride: int) -> None:
-        bearings, capacity = len(system.bearings), math.ceil(steps / stride) + 1
+        bearings, capacity = len(system.bearings), math.ceil(steps / stride) + 2
         self._system = system
         self._steps, self._stride = steps, stride
         self.size = 0
@@ -71,8 +71,8 @@ class Recorder:
         names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
         self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
 
-    def observe(self, step: int, time: float, defect: Array | None = None) -> None:
-        """Watch the system as it stands at `time` after macro step `step`, 0 for the start."""
+    def watch(self, time: float, defect: Array | None = None) -> None:
+        """Note the extremes of the system as it stands at `time` after a step, or at the start."""
         now, responses = self._now, self._system.responses
         np.hypot(responses[:, 0], responses[:, 1], out=now[:, 0])
         np.hypot(responses[:, 2], responses[:, 3], out=now[:, 1])
@@ -86,7 +86,15 @@ class Recorder:
         if higher.any():
             self._peaks[higher] = now[higher]
             self.peak_times[higher] = time
+
+    def record(self, step: int, time: float) -> None:
+        """Keep a record at `time`, the end of macro step `step`, if one is due; 0 for the start."""
         if step % self._stride == 0 or step == self._steps:
+            self._keep(time)
+
+    def close(self, time: float) -> None:
+        """Keep a record of where a run stopped before its time, unless there is one."""
+        if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
             self._keep(time)
 
     def _keep(self, time: float) -> None:

@@ -3,18 +3,61 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from time import perf_counter
 
-from orchestrator.coupling import Coupling
+from orchestrator.coupling import Advance, Coupling
 from orchestrator.outcome import Outcome
 from orchestrator.recorder import Recorder
+from orchestrator.stepping import NotFinite, StepCounts, StepFailure, Stepper
 from orchestrator.system import System
 from orchestrator.unit import Status, UnitError
 
 _WHOLE = 1e-9
 """Share of a step by which the end time may miss a whole number of steps and still count as one."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """The macro steps of a run.
+
+    Attributes
+    ----------
+    end, step : float
+        End time and macro step in s. The last step is shortened to end on the end time exactly.
+    tolerance : float or None
+        Largest relative defect of a step, see `Stepper`.
+    event : float or None
+        Instant on which a step ends besides, in s.
+    """
+
+    end: float
+    step: float
+    tolerance: float | None = None
+    event: float | None = None
+
+    @property
+    def steps(self) -> int:
+        """How many macro steps reach the end time; the last one may be shorter."""
+        return max(1, math.ceil(self.end / self.step - _WHOLE))
+
+    def instant(self, k: int) -> float:
+        """End of macro step k in s."""
+        return self.end if k >= self.steps else k * self.step
+
+    def parts(self, k: int) -> Iterator[tuple[float, float, float]]:
+        """Yield start, end and length of macro step k, from 1 on; two parts where the event falls inside."""
+        start, event = (k - 1) * self.step, self.event
+        # An even step is passed as given, bit by bit, so that units can keep what depends on it.
+        whole = k < self.steps or abs(self.end - k * self.step) <= _WHOLE * self.step
+        length = self.step if whole else self.end - start
+        margin = _WHOLE * self.step
+        if event is not None and start + margin < event < start + length - margin:
+            yield start, event, event - start
+            yield event, self.instant(k), start + length - event
+        else:
+            yield start, self.instant(k), length
 
 
 @dataclass(frozen=True)
@@ -29,35 +72,35 @@ class RunEnd:
         Empty, or what failed and when.
     time : float
         Simulated time reached in s.
-    steps : int
-        Macro steps carried out.
+    counts : StepCounts
+        What the step control did.
     wall_time, record_time : float
-        Wall time of the loop, and of its recording, in s.
+        Wall time of the loop, and of its recording and checkpoints, in s.
     """
 
     outcome: Outcome
     message: str
     time: float
-    steps: int
+    counts: StepCounts
     wall_time: float
     record_time: float
 
 
-def step_count(end: float, step: float) -> int:
-    """Return how many macro steps reach the end time; the last one may be shorter."""
-    return max(1, math.ceil(end / step - _WHOLE))
+Save = Callable[[int, Stepper], None]
+"""Called with the number of each macro step that was carried out, 0 for the start, and the stepper."""
 
 
 def run(
     system: System,
     scheme: Coupling,
     recorder: Recorder,
+    course: Course,
     *,
-    end: float,
-    step: float,
     on_time: Callable[[float], None],
+    save: Save | None = None,
+    resume: Callable[[Stepper], int] | None = None,
 ) -> RunEnd:
-    """Carry an initialized system from 0 to the end time.
+    """Carry an initialized system to the end time.
 
     Parameters
     ----------
@@ -66,41 +109,60 @@ def run(
     scheme : Coupling
         How it is carried over a macro step.
     recorder : Recorder
-        Sees the start and every macro step.
-    end, step : float
-        End time and macro step in s. The last step is shortened to end on the end time exactly.
+        Sees the start and every step.
+    course : Course
+        The macro steps.
     on_time : callable
         Called with the simulated time after each macro step.
+    save : callable, optional
+        See `Save`.
+    resume : callable, optional
+        Puts a run back where it was saved, and returns the number of the macro step.
 
     Returns
     -------
     RunEnd
-        Also when a unit refuses a step, the motion diverges, or the user interrupts.
+        Also when a unit refuses a step, a tolerance is missed, the motion diverges, or the user interrupts.
     """
-    steps = step_count(end, step)
     begin, recording = perf_counter(), 0.0
     outcome, message = Outcome.FINISHED, ""
-    time, done = 0.0, 0
+    time = 0.0
+
+    def on_step(_start: float, end: float, advance: Advance) -> None:
+        nonlocal time, recording
+        watched = perf_counter()
+        time = end
+        recorder.watch(end, advance.defect)
+        recording += perf_counter() - watched
+
+    stepper = Stepper(system, scheme, course.tolerance, on_step)
     try:
-        recorder.observe(0, 0.0)
-        for k in range(1, steps + 1):
-            last = k == steps
-            start = (k - 1) * step
-            # An even step is passed as given, bit by bit, so that units can keep what depends on it.
-            whole = not last or abs(end - k * step) <= _WHOLE * step
-            advance = scheme.advance(system, start, step if whole else end - start)
-            if not math.isfinite(system.journals.sum()):
-                outcome = Outcome.NOT_FINITE
-                message = f"at t = {start:.9g} s: a journal's motion is not finite after the step"
-                break
-            time, done = end if last else k * step, k
+        first = 0
+        if resume is not None:
+            first = resume(stepper)
+        else:
+            recorder.watch(0.0)
+            recorder.record(0, 0.0)
+            if save is not None:
+                save(0, stepper)
+        time = course.instant(first)
+        for k in range(first + 1, course.steps + 1):
+            for start, stop, length in course.parts(k):
+                stepper.cross(start, stop, length)
             watched = perf_counter()
-            recorder.observe(k, time, advance.defect)
+            recorder.record(k, time)
+            if save is not None:
+                save(k, stepper)
             recording += perf_counter() - watched
             on_time(time)
+    except StepFailure as error:
+        outcome = Outcome.NOT_FINITE if isinstance(error, NotFinite) else Outcome.TOLERANCE_MISSED
+        message = f"at t = {time:.9g} s: {error}"
     except UnitError as error:
         outcome = Outcome.STEP_REFUSED if error.status is Status.DISCARD else Outcome.UNIT_FAILED
         message = f"at t = {time:.9g} s: {error}"
     except KeyboardInterrupt:
         outcome, message = Outcome.INTERRUPTED, f"at t = {time:.9g} s"
-    return RunEnd(outcome, message, time, done, perf_counter() - begin, recording)
+    if outcome in (Outcome.STEP_REFUSED, Outcome.TOLERANCE_MISSED, Outcome.NOT_FINITE):
+        recorder.close(time)
+    return RunEnd(outcome, message, time, stepper.counts, perf_counter() - begin, recording)

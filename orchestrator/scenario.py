@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidatorFunctionWrapHandler,
 
 Depth = Literal["v1", "v2", "v3"]
 Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
-CouplingName = Literal["linear-implicit", "gauss-seidel", "jacobi"]
+CouplingName = Literal["linear-implicit", "newton", "iqn-ils", "gauss-seidel", "jacobi"]
 
 DEPTHS: tuple[str, ...] = get_args(Depth)
 REDUCTIONS: tuple[str, ...] = get_args(Reduction)
@@ -147,7 +147,12 @@ class Scenario(_Model):
     end : float
         End time in s.
     step : float
-        Macro step in s.
+        Macro step in s; the longest one where a tolerance is given.
+    tolerance : float or None
+        Largest relative defect of a step: the wrench of a bearing less the one that the rotor was moved
+        by, against the larger of the mean static load and the bearing's force (moments: times its width).
+        A step that misses it is taken back and halved, or iterated until it does by the couplings newton
+        and iqn-ils (by themselves they go to 1e-6). None: every step counts.
     coupling : str
         Name of the coupling, one of `COUPLINGS`.
     film : FilmResolution
@@ -169,6 +174,7 @@ class Scenario(_Model):
     event: BladeFracture | None = None
     end: Positive
     step: Positive = 1e-4
+    tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
     coupling: CouplingName = "linear-implicit"
     film: FilmResolution = FilmResolution()
     record: RecordSettings = RecordSettings()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from time import perf_counter
@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from orchestrator.assembly import assemble
-from orchestrator.coupling import SCHEMES
+from orchestrator.coupling import SCHEMES, make_scheme
 from orchestrator.equilibrium import Start, begin, find_start
 from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import evaluate
@@ -20,9 +20,10 @@ from orchestrator.fmu_file import FmuStore
 from orchestrator.outcome import Outcome
 from orchestrator.record import empty_record, make_record
 from orchestrator.recorder import Recorder
-from orchestrator.run import run, step_count
+from orchestrator.run import Course, run
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import train_of
+from orchestrator.stepping import StepCounts
 from orchestrator.system import System
 from orchestrator.unit import UnitError
 from rotor_fmu.train import Train
@@ -90,9 +91,11 @@ class Result:
     timing : Timing
         Wall time by part.
     steps : int
-        Macro steps carried out.
+        Steps carried out.
     evaluations : int
         Steps of bearing units in the time loop, over all bearings.
+    counts : StepCounts
+        Accepted and rejected steps, iterations.
     """
 
     record: xr.Dataset
@@ -101,6 +104,7 @@ class Result:
     timing: Timing
     steps: int
     evaluations: int
+    counts: StepCounts = field(default_factory=StepCounts)
 
 
 def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -> Result:
@@ -181,16 +185,17 @@ def carry_out(
         return Result(record, Outcome.NO_EQUILIBRIUM, str(error), timing, 0, 0)
     equilibrium = clock.lap()
     announce(Stage.RUN, 0.0)
-    steps = step_count(scenario.end, scenario.step)
+    course = _course(scenario)
     stride = max(1, round(scenario.record.interval / scenario.step))
-    recorder = Recorder(system, train.nodes, steps, stride)
+    recorder = Recorder(system, train.nodes, course.steps, stride)
+    loads = np.abs(start.loads)
+    system.set_scale(float(loads.mean()), [seat.width for seat in train.bearings])
     before = [(group.step_time, group.exchange_time) for group in system.groups]
     end = run(
         system,
-        SCHEMES[scenario.coupling],
+        make_scheme(scenario.coupling, scenario.tolerance),
         recorder,
-        end=scenario.end,
-        step=scenario.step,
+        course,
         on_time=lambda time: announce(Stage.RUN, time),
     )
     (rotor, rotor_exchange), (film, film_exchange) = (
@@ -201,13 +206,23 @@ def carry_out(
     rest = end.wall_time - film - rotor - fmi - end.record_time
     provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
     return Result(
-        make_record(recorder, start, scenario, train, end.outcome, end.message, provenance),
+        make_record(recorder, start, scenario, train, end.outcome, end.message, provenance).assign_attrs(
+            end.counts.attributes(system.bearing_group.evaluations)
+        ),
         end.outcome,
         end.message,
         Timing(load, equilibrium, film, rotor, fmi, end.record_time, rest),
-        end.steps,
+        end.counts.accepted,
         system.bearing_group.evaluations,
+        end.counts,
     )
+
+
+def _course(scenario: Scenario) -> Course:
+    """Steps end on the fracture where they are controlled; else the rotor takes it inside a step, exactly."""
+    controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
+    event = scenario.event.time if controlled and scenario.event is not None else None
+    return Course(scenario.end, scenario.step, scenario.tolerance, event)
 
 
 def _warm_up(system: System, train: Train) -> None:

@@ -25,6 +25,7 @@ from orchestrator.windows import Phase, fracture_time, phases
 
 if TYPE_CHECKING:
     from orchestrator.simulate import Result, Timing
+    from orchestrator.stepping import StepCounts
 
 UNITS = {
     "force": "N",
@@ -57,7 +58,11 @@ class RunSummary:
     steps, evaluations : int
         Macro steps, and steps of bearing units over all bearings.
     macro_step : float
-        [s].
+        [s]; the longest step where steps are controlled.
+    tolerance : float or None
+        Of the relative defect of a step.
+    stepping : StepCounts
+        Accepted and rejected steps, iterations, largest relative defect.
     coupling : str
         Name of the coupling.
     depth : dict of str
@@ -89,6 +94,8 @@ class RunSummary:
     steps: int
     evaluations: int
     macro_step: float
+    tolerance: float | None
+    stepping: StepCounts
     coupling: str
     depth: dict[str, str]
     fracture_time: float | None
@@ -174,6 +181,8 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         steps=result.steps,
         evaluations=result.evaluations,
         macro_step=float(record.attrs.get("macro_step", math.nan)),
+        tolerance=record.attrs.get("tolerance"),
+        stepping=result.counts,
         coupling=str(record.attrs.get("coupling", "")),
         depth={name: str(depth) for name, depth in zip(names, depths, strict=True)},
         fracture_time=fracture_time(record) if samples else None,

@@ -56,6 +56,21 @@ def _force_text(value: float) -> str:
     return FORCE.fitting(value).fitting(value).text(value)
 
 
+def _steps_text(summary: RunSummary) -> str:
+    """Simulated time and steps, and what the step control did if it did anything."""
+    counts, evenly = summary.stepping, summary.tolerance is None and not summary.stepping.taken_back
+    text = f"{summary.simulated:.4g} s in {summary.steps} steps of "
+    if evenly:
+        text += f"{summary.macro_step * 1e3:.3g} ms"
+    else:
+        shortest = counts.shortest if counts.accepted else summary.macro_step
+        text += f"{shortest * 1e3:.3g} to {summary.macro_step * 1e3:.3g} ms, {counts.rejected} rejected"
+        text += f", {counts.discarded} discarded by a unit" if counts.discarded else ""
+    if counts.iterations > counts.accepted:
+        text += f", {counts.iterations / counts.accepted:.2f} iterations a step"
+    return text
+
+
 def _facts(summary: RunSummary) -> Table:
     timing = summary.timing
     rate = f", {summary.simulated / timing.loop:.3g} s a second" if timing.loop > 0 else ""
@@ -64,10 +79,7 @@ def _facts(summary: RunSummary) -> Table:
     facts.add_column()
     rows: list[tuple[str, str | Text]] = [
         ("outcome", Text(summary.outcome, style="green" if summary.finished else "bold red")),
-        (
-            "simulated",
-            f"{summary.simulated:.4g} s in {summary.steps} steps of {summary.macro_step * 1e3:.3g} ms",
-        ),
+        ("simulated", _steps_text(summary)),
         ("depth", summary.depth_text()),
         ("coupling", summary.coupling),
         (

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fmus import port
 from orchestrator.errors import PortError
 from orchestrator.graph import Connection, Graph, Group
+from orchestrator.rollback import Rollback
 from orchestrator.unit import Unit
 
 Array = NDArray[np.float64]
@@ -21,6 +22,7 @@ RESPONSE = {v.name: index for index, v in enumerate(port.BEARING_OUTPUTS)}
 _BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
 _BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
 _OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
+_TANGENT = slice(RESPONSE[port.K[0]], RESPONSE[port.C[-1]] + 1)
 _FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
 _PER_LAW = len(port.LAW)
 _PER_JOURNAL = len(port.JOURNAL)
@@ -60,6 +62,8 @@ class System:
         F0, K, C that the rotor was given last.
     groups : tuple of Group
         Rotor and bearings, in the order of a sequential coupling.
+    rollback : Rollback
+        The way back to the start of a step.
     """
 
     def __init__(self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW) -> None:
@@ -86,7 +90,9 @@ class System:
         self.rotor_group: Group = self.graph.group([rotor.name])
         self.bearing_group: Group = self.graph.group([b.name for b in bearings])
         self.groups = (self.rotor_group, self.bearing_group)
+        self.rollback = Rollback(self.units, self.graph)
         self._defect = np.empty((n, 4))
+        self._loads, self._levers = np.ones(n), np.ones(n)
 
     @property
     def units(self) -> tuple[Unit, ...]:
@@ -97,6 +103,35 @@ class System:
     def forces(self) -> Array:
         """Wrench of each bearing on the rotor (bearings, 4), a view."""
         return self.responses[:, _FORCE]
+
+    @property
+    def tangents(self) -> Array:
+        """Stiffness and damping [K C] that the bearings returned last (bearings, 4, 8), a copy."""
+        square = self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
+        return np.concatenate([square[:, 0], square[:, 1]], axis=2)
+
+    def set_scale(self, load: float, levers: Iterable[float]) -> None:
+        """Say what wrenches are measured by.
+
+        Parameters
+        ----------
+        load : float
+            Least scale of a bearing's force in N, such as the mean static load.
+        levers : iterable of float
+            For each bearing the lever in m that makes a scale of moments of it, such as the width.
+        """
+        self._loads[:] = load
+        self._levers[:] = list(levers)
+
+    def scale(self) -> Array:
+        """Return what wrenches are measured by now (bearings, 4): the load, or the force where larger."""
+        force = np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
+        moment = force * self._levers
+        return np.stack([force, force, moment, moment], axis=1)
+
+    def relative(self, defect: Array) -> float:
+        """Return the largest component of a defect against `scale`."""
+        return float(np.max(np.abs(defect) / self.scale()))
 
     def set_speed(self, speed: float) -> None:
         """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
@@ -120,6 +155,7 @@ class System:
 
     def close(self) -> None:
         """Free all units."""
+        self.rollback.close()
         for unit in self.units:
             unit.close()
 

@@ -146,6 +146,11 @@ class Unit:
         """The last messages that the unit logged."""
         return tuple(self._messages)
 
+    @property
+    def failed(self) -> bool:
+        """Whether a call ended with an error after which nothing more may be asked of the unit."""
+        return self._worst >= Status.ERROR
+
     def variable(self, name: str) -> Any:
         """Return the description of a variable.
 

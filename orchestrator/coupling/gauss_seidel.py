@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from orchestrator.coupling.base import Advance, Coupled
+from orchestrator.coupling.base import Advance, Coupled, Memoryless
 from orchestrator.system import Wiring
 
 
-class GaussSeidel:
+class GaussSeidel(Memoryless):
     """Explicit and sequential, rotor then bearings; force only."""
 
     name = "gauss-seidel"

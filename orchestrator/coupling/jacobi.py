@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from orchestrator.coupling.base import Advance, Coupled
+from orchestrator.coupling.base import Advance, Coupled, Memoryless
 from orchestrator.system import Wiring
 
 
-class Jacobi:
+class Jacobi(Memoryless):
     """Explicit and parallel; force only.
 
     The bearings see the rotor one step late, so the defect is that of the step before.

@@ -10,11 +10,11 @@ for any damping, and for a stiffness k against the mass m that rides on it up to
 
 from __future__ import annotations
 
-from orchestrator.coupling.base import Advance, Coupled
+from orchestrator.coupling.base import Advance, Coupled, Memoryless
 from orchestrator.system import Wiring
 
 
-class LinearImplicit:
+class LinearImplicit(Memoryless):
     """Rotor on the affine law, then the bearings on the rotor's new state."""
 
     name = "linear-implicit"

@@ -22,6 +22,18 @@ def toy_fmus(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope="session")
+def loop_fmus(tmp_path_factory):
+    """Folder with lag.fmu and gain.fmu, an unsymmetric loop with feedthrough."""
+    folder = tmp_path_factory.mktemp("loop")
+    for name in ("lag", "gain"):
+        built = FmuBuilder.build_FMU(
+            UNITS / f"{name}.py", folder, [UNITS / "loop_matrices.py"], canGetAndSetFMUstate=True
+        )
+        (folder / built.name).rename(folder / f"{name}.fmu")
+    return folder
+
+
 @pytest.fixture
 def store():
     """Extracted FMUs, removed after the test."""

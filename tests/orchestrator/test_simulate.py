@@ -11,6 +11,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.record_files import read_record, write_record
 from orchestrator.scenario_file import load_scenario
 from orchestrator.simulate import Stage, simulate
+from orchestrator.stepping import DEEPEST
 from tests.orchestrator.toy_train import GRADE, SPEED, STIFFNESS, WHEEL_MASS, toy_fmu_folder, toy_scenario
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -108,7 +109,9 @@ def test_a_refused_step_ends_the_run_with_its_reason_and_a_partial_record(fmus, 
     times = result.record["time"].values
     assert 0.0205 <= times[-1] < 0.05
     assert f"at t = {times[-1]:.9g} s" in result.message
-    assert len(times) == result.steps + 1
+    assert result.counts.discarded >= DEEPEST
+    assert result.counts.shortest == pytest.approx(1e-3 / 2**DEEPEST)
+    assert times[-2] == pytest.approx(1e-3 * (len(times) - 2))
     assert result.record.attrs["status"] == "step-refused"
     assert np.isfinite(result.record["force"]).all()
 

@@ -13,6 +13,9 @@ _OWN = (
     port.Variable("spring.damping", "parameter", start=2e4),
     port.Variable("spring.cubic", "parameter", start=0.0),
     port.Variable("refuse_after", "parameter", "s", start=1e9),
+    port.Variable("refuse_from", "parameter", "s", start=1e9),
+    port.Variable("refuse_to", "parameter", "s", start=1e9),
+    port.Variable("refuse_over", "parameter", "s", start=1e9),
     port.Variable("break_after", "parameter", "s", start=1e9),
 )
 
@@ -44,6 +47,9 @@ class SpringDamper(PortUnit):
             raise RuntimeError("the spring is broken")
         if end > self.values["refuse_after"]:
             return self.refuse("100% of the travel is used up")
+        p = self.values
+        if p["refuse_from"] < end <= p["refuse_to"] and step_size > p["refuse_over"]:
+            return self.refuse("too long a step")
         self.solve()
         if not self.values["eccentricity"] < 1.0:
             return self.refuse("the journal has left its bore")
