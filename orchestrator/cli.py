@@ -51,7 +51,8 @@ RUN_EPILOG = """\
   0    finished, valid             4    a step was refused
   1    internal or file error      5    a unit failed
   2    wrong input, no run         6    the motion grew without bound
-  3    no static equilibrium       130  interrupted
+  3    no static equilibrium       9    the tolerance was missed
+                                   130  interrupted
 
   From 3 on, what was simulated lies in <DIR>-partial, with the reason
   in PARTIAL.txt.
@@ -95,10 +96,15 @@ def run(
         Coupling | None,
         typer.Option(
             metavar="NAME",
-            help="linear-implicit (affine law); to compare, explicit and force only: gauss-seidel, jacobi.",
+            help="linear-implicit (affine law); iterated: newton, iqn-ils; to compare, explicit and force "
+            "only: gauss-seidel, jacobi.",
         ),
     ] = None,
     step: Annotated[float | None, typer.Option(metavar="SECONDS", help="Macro step.")] = None,
+    tol: Annotated[
+        float | None,
+        typer.Option(metavar="SHARE", help="Halve steps whose relative defect exceeds it, e.g. 1e-3."),
+    ] = None,
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
     reduction: Annotated[
         Reduction | None,
@@ -127,6 +133,7 @@ def run(
             ("depth_at", _assignments(depth_at or [])),
             ("coupling", coupling and str(coupling)),
             ("step", step),
+            ("tolerance", tol),
             ("end", end),
             ("reduction", reduction and str(reduction)),
         )

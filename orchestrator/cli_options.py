@@ -20,6 +20,8 @@ class Coupling(StrEnum):
     """How rotor and bearings exchange values."""
 
     LINEAR_IMPLICIT = "linear-implicit"
+    NEWTON = "newton"
+    IQN_ILS = "iqn-ils"
     GAUSS_SEIDEL = "gauss-seidel"
     JACOBI = "jacobi"
 
