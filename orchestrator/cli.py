@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator import cli_compare, cli_linear, cli_ssp
+from orchestrator import cli_compare, cli_linear, cli_resume, cli_ssp
 from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
 
 app = typer.Typer(
@@ -25,6 +25,7 @@ app = typer.Typer(
 cli_compare.register(app)
 cli_linear.register(app)
 cli_ssp.register(app)
+cli_resume.register(app)
 
 
 RUN_HELP = (
@@ -118,6 +119,10 @@ def run(
         Path | None,
         typer.Option(metavar="DIR", help="Results; by default results/<SCENARIO>-<DEPTH>."),
     ] = None,
+    checkpoint: Annotated[
+        float | None,
+        typer.Option(min=1e-6, metavar="EVERY", help="Simulated seconds between checkpoints; see resume."),
+    ] = None,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
     figure_format: Annotated[
         list[Format] | None,
@@ -147,7 +152,7 @@ def run(
         from orchestrator.run_command import run as run_scenario
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
-        request = RunRequest(scenario, overrides, out, fmus, bearing, formats)
+        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint)
         return run_scenario(request, Console(), Console(stderr=True))
 
     guarded(work)

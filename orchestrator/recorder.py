@@ -8,6 +8,8 @@ kept besides, with their instants.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +30,7 @@ KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 
 SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")
 FIELDS = ("x", "y", "amplitude", "stress")
+_KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields")
 
 
 class Recorder:
@@ -108,6 +111,19 @@ class Recorder:
         self._shaft[k] = self._shaft_values[: len(SHAFT)]
         self._fields[k] = self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1)
         self.size = k + 1
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What was kept so far, by name; views."""
+        kept = {name: getattr(self, f"_{name}")[: self.size] for name in _KEPT_ARRAYS}
+        return kept | {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what `arrays` returned."""
+        self.size = len(arrays["times"])
+        for name in _KEPT_ARRAYS:
+            getattr(self, f"_{name}")[: self.size] = arrays[name]
+        self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
+        self.peak_times[:] = arrays["peak_times"]
 
     @property
     def times(self) -> Array:

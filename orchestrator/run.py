@@ -86,8 +86,8 @@ class RunEnd:
     record_time: float
 
 
-Save = Callable[[int, Stepper], None]
-"""Called with the number of each macro step that was carried out, 0 for the start, and the stepper."""
+Save = Callable[[int, float, Stepper], None]
+"""Called with number and end of each macro step that was carried out, 0 for the start, and the stepper."""
 
 
 def run(
@@ -144,7 +144,7 @@ def run(
             recorder.watch(0.0)
             recorder.record(0, 0.0)
             if save is not None:
-                save(0, stepper)
+                save(0, 0.0, stepper)
         time = course.instant(first)
         for k in range(first + 1, course.steps + 1):
             for start, stop, length in course.parts(k):
@@ -152,7 +152,7 @@ def run(
             watched = perf_counter()
             recorder.record(k, time)
             if save is not None:
-                save(k, stepper)
+                save(k, time, stepper)
             recording += perf_counter() - watched
             on_time(time)
     except StepFailure as error:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 
 from orchestrator import exit_status
+from orchestrator.checkpoint_folder import checkpoints, discard
 from orchestrator.errors import OrchestratorError
 from orchestrator.figures.write import write_figures
 from orchestrator.fmu_folder import ensure_fmus
@@ -18,11 +19,12 @@ from orchestrator.progress import show_progress
 from orchestrator.record_files import write_record
 from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
 from orchestrator.scenario_file import load_scenario, scenario_toml, train_of
-from orchestrator.simulate import Result, simulate
+from orchestrator.simulate import Execution, Result, simulate
 from orchestrator.summary import RunSummary, summarise
 from orchestrator.summary_table import SummaryTable, to_text
 
 if TYPE_CHECKING:
+    from orchestrator.checkpoint import Checkpoint
     from orchestrator.scenario import Scenario
     from rotor_fmu.train import Train
 
@@ -45,6 +47,8 @@ class RunRequest:
         The analysed bearing; None: the most loaded one.
     formats : sequence of str
         File types of the figures; none for no figures.
+    checkpoint : float or None
+        Simulated time from one checkpoint to the next in s; None: no checkpoints.
     """
 
     source: str
@@ -53,6 +57,7 @@ class RunRequest:
     fmus: Path = Path("fmus")
     bearing: str | None = None
     formats: Sequence[str] = ("png",)
+    checkpoint: float | None = None
 
 
 def default_folder(source: str, scenario: Scenario) -> Path:
@@ -83,10 +88,22 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
         For anything wrong with the input; nothing is written then.
     """
     if request.source.endswith(".ssp"):
+        if request.checkpoint is not None:
+            raise OrchestratorError("--checkpoint: a run of an SSP cannot be resumed")
         from orchestrator.ssp.run_command import run_ssp
 
         return run_ssp(request, console, errors)
-    scenario = load_scenario(request.source, request.overrides)
+    return carry_out_request(request, load_scenario(request.source, request.overrides), console, errors)
+
+
+def carry_out_request(
+    request: RunRequest,
+    scenario: Scenario,
+    console: Console,
+    errors: Console,
+    saved: Checkpoint | None = None,
+) -> int:
+    """Run a scenario from its start or from a checkpoint; otherwise see `run`."""
     train = train_of(scenario)
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
@@ -94,8 +111,12 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     ensure_fmus(request.fmus, train, depths, console)
     with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        result = simulate(scenario, request.fmus, progress)
-    return conclude(result, scenario, train, request, folder, console, errors)
+        execution = Execution(checkpoints(scenario, request, folder), saved)
+        result = simulate(scenario, request.fmus, progress, execution)
+    status = conclude(result, scenario, train, request, folder, console, errors)
+    if result.outcome.ok and request.checkpoint is not None:
+        discard(folder)
+    return status
 
 
 def check_bearing(request: RunRequest, train: Train) -> None:

@@ -59,6 +59,21 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
     return _checked(_merged(raw, overrides or {}), path.parent, str(source))
 
 
+def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
+    """Read a scenario from TOML text; relative paths count from `folder`, `source` names it in errors.
+
+    Raises
+    ------
+    ScenarioError
+        As in `load_scenario`.
+    """
+    try:
+        raw = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(source, [f"not readable as TOML: {error}"]) from None
+    return _checked(raw, folder, source)
+
+
 def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario:
     """Return the scenario with values replaced and checked as in `load_scenario`.
 

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from enum import StrEnum
 from pathlib import Path
-from time import perf_counter
 
 import numpy as np
-import xarray as xr
 
 from orchestrator.assembly import assemble
 from orchestrator.coupling import SCHEMES, make_scheme
@@ -20,94 +16,23 @@ from orchestrator.fmu_file import FmuStore
 from orchestrator.outcome import Outcome
 from orchestrator.record import empty_record, make_record
 from orchestrator.recorder import Recorder
+from orchestrator.result import Execution, Progress, Result, Stage, Stopwatch, Timing
 from orchestrator.run import Course, run
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import train_of
-from orchestrator.stepping import StepCounts
+from orchestrator.stepping import Stepper
 from orchestrator.system import System
 from orchestrator.unit import UnitError
 from rotor_fmu.train import Train
 
+__all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
 
-class Stage(StrEnum):
-    """What a call to `simulate` is busy with; the value is fit for display."""
-
-    LOAD = "loading FMUs"
-    WARM_UP = "first evaluation"  # long where numba has to compile the films, once per installation
-    EQUILIBRIUM = "static equilibrium"
-    RUN = "time loop"
+_PLAIN = Execution()
 
 
-Progress = Callable[[Stage, float], None]
-"""Called with the stage and the simulated time in s: once at the start of each stage, then after every
-macro step of `Stage.RUN` (the callee decides how often it redraws)."""
-
-
-@dataclass(frozen=True)
-class Timing:
-    """Wall time of a run, in s.
-
-    Attributes
-    ----------
-    load, equilibrium : float
-        Before the time loop; ``load`` includes numba's compilation where its cache is cold.
-    film, rotor : float
-        In the time loop, inside ``fmi2DoStep`` of the bearings and of the rotor.
-    fmi : float
-        Getting and setting of variables, and the gathering between them.
-    record : float
-        Observation of every macro step and the fields at the record instants.
-    master : float
-        The rest of the time loop.
-    """
-
-    load: float
-    equilibrium: float
-    film: float
-    rotor: float
-    fmi: float
-    record: float
-    master: float
-
-    @property
-    def loop(self) -> float:
-        """The whole time loop."""
-        return self.film + self.rotor + self.fmi + self.record + self.master
-
-
-@dataclass(frozen=True)
-class Result:
-    """What a run gives.
-
-    Attributes
-    ----------
-    record : xarray.Dataset
-        Up to the end or to where the run failed; may hold no instant but the start, or none at all when no
-        equilibrium was found.
-    outcome : Outcome
-        How it ended.
-    message : str
-        Empty, or what failed: unit, time, and the reason it logged.
-    timing : Timing
-        Wall time by part.
-    steps : int
-        Steps carried out.
-    evaluations : int
-        Steps of bearing units in the time loop, over all bearings.
-    counts : StepCounts
-        Accepted and rejected steps, iterations.
-    """
-
-    record: xr.Dataset
-    outcome: Outcome
-    message: str
-    timing: Timing
-    steps: int
-    evaluations: int
-    counts: StepCounts = field(default_factory=StepCounts)
-
-
-def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -> Result:
+def simulate(
+    scenario: Scenario, fmus: Path, progress: Progress | None = None, execution: Execution = _PLAIN
+) -> Result:
     """Run a scenario on FMUs.
 
     Parameters
@@ -118,6 +43,8 @@ def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -
         Folder with the rotor FMU of the scenario's train and the bearing FMUs of its depths.
     progress : callable, optional
         See `Progress`.
+    execution : Execution, optional
+        Checkpoints and the like.
 
     Returns
     -------
@@ -130,6 +57,8 @@ def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -
         When an FMU is missing or cannot be instantiated.
     PortError
         When an FMU does not carry the port.
+    CheckpointError
+        When a checkpoint to go on from belongs to other FMUs.
     """
     announce = progress or (lambda _stage, _time: None)
     train = train_of(scenario)
@@ -145,6 +74,7 @@ def simulate(scenario: Scenario, fmus: Path, progress: Progress | None = None) -
                 lambda: find_start(system, train.bearings, train.speed, train.nodes),
                 clock,
                 announce,
+                execution,
             )
         finally:
             system.close()
@@ -157,6 +87,7 @@ def carry_out(
     find: Callable[[], Start],
     clock: Stopwatch,
     announce: Progress,
+    execution: Execution = _PLAIN,
 ) -> Result:
     """Run an assembled system.
 
@@ -172,13 +103,20 @@ def carry_out(
         Started before the units were loaded.
     announce : callable
         See `Progress`.
+    execution : Execution, optional
+        Checkpoints and the like.
     """
     announce(Stage.WARM_UP, 0.0)
     _warm_up(system, train)
     load = clock.lap()
     announce(Stage.EQUILIBRIUM, 0.0)
+    resume, checkpoints = execution.resume, execution.checkpoints
     try:
-        start = begin(system, find(), train.nodes)
+        if resume is None:
+            start = begin(system, find(), train.nodes)
+        else:
+            resume.restore_units(system)
+            start = resume.start()
     except (EquilibriumError, UnitError) as error:
         record = empty_record(scenario, train, Outcome.NO_EQUILIBRIUM, str(error))
         timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -190,6 +128,11 @@ def carry_out(
     recorder = Recorder(system, train.nodes, course.steps, stride)
     loads = np.abs(start.loads)
     system.set_scale(float(loads.mean()), [seat.width for seat in train.bearings])
+
+    def save(step: int, time: float, stepper: Stepper) -> None:
+        if checkpoints is not None:
+            checkpoints.save(step, time, system, stepper, recorder, start)
+
     before = [(group.step_time, group.exchange_time) for group in system.groups]
     end = run(
         system,
@@ -197,6 +140,8 @@ def carry_out(
         recorder,
         course,
         on_time=lambda time: announce(Stage.RUN, time),
+        save=save,
+        resume=None if resume is None else lambda stepper: resume.restore_run(stepper, recorder),
     )
     (rotor, rotor_exchange), (film, film_exchange) = (
         (group.step_time - earlier[0], group.exchange_time - earlier[1])
@@ -231,16 +176,3 @@ def _warm_up(system: System, train: Train) -> None:
     positions[:, 1] = [-0.5 * seat.clearance for seat in train.bearings]
     evaluate(system, positions)
     system.rotor_group.fetch()
-
-
-class Stopwatch:
-    """Wall time from lap to lap."""
-
-    def __init__(self) -> None:
-        self._last = perf_counter()
-
-    def lap(self) -> float:
-        """Return the time since the last lap in s."""
-        now = perf_counter()
-        elapsed, self._last = now - self._last, now
-        return elapsed

@@ -102,6 +102,8 @@ class Stepper:
         What was done so far.
     level : int
         Halvings of the interval in use.
+    scheme : Coupling
+        As given.
     """
 
     def __init__(
@@ -113,7 +115,7 @@ class Stepper:
     ) -> None:
         if tolerance is not None or scheme.iterates:
             system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
-        self._system, self._scheme, self._on_step = system, scheme, on_step
+        self._system, self.scheme, self._on_step = system, scheme, on_step
         self._tolerance = None if scheme.iterates else tolerance
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
@@ -146,7 +148,7 @@ class Stepper:
         if self._marks:
             self._system.rollback.mark()
         try:
-            advance = self._scheme.advance(self._system, time, step)
+            advance = self.scheme.advance(self._system, time, step)
             size = self._system.relative(advance.defect)
             problem = self._problem(size, step)
         except NotConverged as error:
@@ -163,12 +165,12 @@ class Stepper:
             if self._system.rollback.possible:
                 self._system.rollback.take_back()
             self.counts.rejected += 1
-            if self.level == DEEPEST or (self._tolerance is None and not self._scheme.iterates):
+            if self.level == DEEPEST or (self._tolerance is None and not self.scheme.iterates):
                 raise problem
             return None
         self._count(advance, step, size)
         self._on_step(time, end, advance)
-        if self._scheme.iterates:
+        if self.scheme.iterates:
             return advance.iterations <= EASY
         return self._tolerance is None or size <= CALM * self._tolerance
 

@@ -258,6 +258,21 @@ class Unit:
         self._states[state.value] = state
         return state
 
+    def state_bytes(self) -> bytes:
+        """Return the bytes of the present state."""
+        state = self.get_state()
+        try:
+            return self.serialize(state)
+        finally:
+            self.free_state(state)
+
+    def resume(self, data: bytes) -> None:
+        """Go on from the bytes of a state after initialization, from Initialization Mode on."""
+        state = self.deserialize(data)
+        self.set_state(state)
+        self.free_state(state)
+        self._initialized = True
+
     def close(self) -> None:
         """Free states and instance; after a fatal error the unit is left alone, as FMI demands."""
         if self._slave.component is None:

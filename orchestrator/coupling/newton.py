@@ -16,7 +16,7 @@ from orchestrator.coupling.secant_law import secant_laws
 from orchestrator.system import System, Wiring
 
 
-@dataclass(frozen=True)
+@dataclass
 class Newton(Memoryless):
     """Newton's method on the wrenches at the end of each step, by rollback.
 

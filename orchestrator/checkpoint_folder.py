@@ -1,0 +1,43 @@
+"""Where a run's checkpoint lies, and what it keeps for the command that goes on from it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from orchestrator.checkpoint import Checkpoints
+from orchestrator.scenario_file import scenario_toml
+
+if TYPE_CHECKING:
+    from orchestrator.run_command import RunRequest
+    from orchestrator.scenario import Scenario
+
+SUFFIX = "-checkpoint"
+
+
+def checkpoint_folder(folder: Path) -> Path:
+    """Where the checkpoint of a run lies whose results go to `folder`."""
+    return folder.with_name(folder.name + SUFFIX)
+
+
+def checkpoints(scenario: Scenario, request: RunRequest, folder: Path) -> Checkpoints | None:
+    """What writes the checkpoints that a request asks for, with all that is needed to go on."""
+    if request.checkpoint is None:
+        return None
+    about: dict[str, Any] = {
+        "scenario": scenario_toml(scenario),
+        "scenario_folder": str(scenario.folder.absolute()),
+        "source": request.source,
+        "folder": str(folder.absolute()),
+        "fmus": str(request.fmus.absolute()),
+        "bearing": request.bearing,
+        "formats": list(request.formats),
+        "every": request.checkpoint,
+    }
+    return Checkpoints(checkpoint_folder(folder), request.checkpoint, about)
+
+
+def discard(folder: Path) -> None:
+    """Remove the checkpoint of a run that is finished."""
+    shutil.rmtree(checkpoint_folder(folder), ignore_errors=True)
