@@ -86,7 +86,7 @@ def test_every_problem_is_reported_at_once(scenario_file):
         "stepp: unknown key; did you mean 'step'? allowed are title, train, reduction",
         "depth = 'v4'; allowed are v1, v2, v3",
         "reduction = 'irz'; did you mean 'irs'? allowed are irs, irs-plain, guyan, craig-bampton, none",
-        "coupling = 'linear implicit'; did you mean 'linear-implicit'? allowed are linear-implicit, gauss",
+        "coupling = 'linear implicit'; did you mean 'linear-implicit'? allowed are linear-implicit, newton",
         "depth_at.rear = 'V3'; did you mean 'v3'? allowed are v1, v2, v3",
         "unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",
         "event.unbalance = 'much'; allowed is a number",
