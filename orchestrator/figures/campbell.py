@@ -101,7 +101,8 @@ def _speed_lines(axes: Axes, rotation: np.ndarray, top: float, train: Train) -> 
     axes.plot([0.0, end], [0.0, end], color="#555555", linewidth=1.0, linestyle=(0, (5, 3)))
     axes.annotate(
         "1 × rotation", (0.55 * end, 0.55 * end), xytext=(5, -2), textcoords="offset points",
-        fontsize=style.FONT - 1.5, color="#555555", va="top",
+        fontsize=style.FONT - 1.5, color="#555555", va="top", zorder=4,
+        bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.85},
     )  # fmt: skip
     if rated <= rotation[-1]:
         axes.axvline(rated, color=style.EVENT, linewidth=0.9, linestyle=":")
