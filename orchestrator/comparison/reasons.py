@@ -35,7 +35,7 @@ def reason(row: Row, runs: Runs) -> str:
         return f"bending and residual tilt keep the least gap at the {end} end"
     if row.number == 14 and not row.criteria[0].met and runs.train == paper.TRAIN:
         return (
-            "the largest amplitude is that of the first swing, in which journals run through their clearance: "
+            "the largest amplitude is that of the first swing, in which journals cross their clearance: "
             f"V2, with the thinner film, leaves them more of it than V3; {CALIBRATION}"
         )
     if runs.train != paper.TRAIN:
