@@ -13,6 +13,8 @@ pythonfmu runs, under a name of its own; it imports nothing of bladeloss.
 
 from __future__ import annotations
 
+import atexit
+import ctypes
 import hashlib
 import importlib
 import importlib.util
@@ -30,6 +32,7 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 _kept: list[dict[str, Any]] = []
+_let_go: set[Path] = set()
 _CHECKED = "__bladeloss_digest__"  # set on a package once its sources are known
 
 
@@ -40,6 +43,23 @@ def keep(scope: dict[str, Any]) -> None:
     globals too many; without this they are freed while in use.
     """
     _kept.append(scope)
+
+
+def _let_go_at_exit(entry: str) -> None:
+    """Make pythonfmu's library give up its state while that is still possible.
+
+    At the end of a process its destructors run in the wrong order: the state is freed twice, and now
+    and then the process aborts with "corrupted double-linked list". Given up before, it is freed once.
+    """
+    for library in Path(entry).resolve().parents[1].glob("binaries/*/*.so"):
+        if library not in _let_go:
+            _let_go.add(library)
+            atexit.register(_finalize, library)
+
+
+def _finalize(library: Path) -> None:
+    with suppress(OSError, AttributeError):  # not this platform's, or gone
+        ctypes.CDLL(str(library), mode=os.RTLD_NOLOAD | os.RTLD_NOW).finalizePythonInterpreter()
 
 
 def digest_of(files: Iterable[tuple[str, bytes]]) -> str:
@@ -63,6 +83,8 @@ def unit_class(entry: str, facade: str, name: str, packages: dict[str, str]) -> 
         Digest of each package the facade needs.
     """
     try:
+        if sys.platform == "linux":
+            _let_go_at_exit(entry)
         for package, digest in packages.items():
             _provide(package, digest, Path(entry).parent / "packages")
         return getattr(importlib.import_module(facade), name)
