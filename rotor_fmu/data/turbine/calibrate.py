@@ -33,7 +33,7 @@ FIRST_GUESS = {
     "generator_balance": 8.0,
     "lp_core_diameter": 1.20,
 }
-WHEEL, UNBALANCES = "LP1-8", (145.0, 165.0, 185.0, 205.0)
+WHEEL, UNBALANCES = "LP1-2", (225.0, 245.0, 265.0, 285.0)
 
 
 def show_search() -> None:
