@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from fmus.balance import BALANCE, ENERGY, TRACK_WORK, WORK
 from fmus.connector import (
     F0,
     FORCE,
@@ -50,6 +51,7 @@ __all__ = [
     "BEARING_INPUTS",
     "BEARING_OUTPUTS",
     "BEARING_PARAMETERS",
+    "ENERGY",
     "F0",
     "FORCE",
     "HOUSING",
@@ -61,6 +63,7 @@ __all__ = [
     "SPEED",
     "UNITS",
     "VELOCITY",
+    "WORK",
     "WRENCH",
     "C",
     "Causality",
@@ -173,6 +176,7 @@ _ROTOR_PARAMETERS: tuple[Variable, ...] = (
         kind="Boolean",
     ),
     Variable("fracture.time", "parameter", "s", "instant of the blade fracture", 1.0, nominal=1.0),
+    TRACK_WORK,
 )
 _SUMMARY = (
     ("amplitude.max", "m", "largest vibration amplitude of the shaft, from the static line", 1e-4),
@@ -250,6 +254,7 @@ def rotor(
         variables.extend(_rotor_journal(i, name))
     for name, unit, text, nominal in _SUMMARY:
         variables.append(Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes"))
+    variables.extend(BALANCE)
     variables.extend(_ROTOR_PARAMETERS)
     for i, name in enumerate(bearings, 1):
         for part, text in _START_PARTS:

@@ -11,14 +11,13 @@ import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.equilibrium import Start
 from orchestrator.errors import OrchestratorError
-from orchestrator.recorder import Recorder
 from orchestrator.stepping import StepCounts, Stepper
 from orchestrator.system import System
 
@@ -26,6 +25,16 @@ Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
 _VERSION = 1
+
+
+class Keeper(Protocol):
+    """What watches a run and keeps something of it: record, ledger."""
+
+    def arrays(self) -> Arrays:
+        """Return all that it holds."""
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from there."""
 
 
 class CheckpointError(OrchestratorError):
@@ -82,12 +91,13 @@ class Checkpoint:
         system.graph.inputs[:] = self.arrays["inputs"]
         system.graph.outputs[:] = self.arrays["outputs"]
 
-    def restore_run(self, stepper: Stepper, recorder: Recorder) -> int:
-        """Put step control and recorder where they were; return the number of the macro step."""
+    def restore_run(self, stepper: Stepper, keepers: Mapping[str, Keeper]) -> int:
+        """Put step control and what watches the run where they were; return the number of the macro step."""
         stepper.level = int(self.meta["level"])
         stepper.counts = StepCounts(**self.meta["counts"])
         stepper.scheme.memory = _without_prefix("scheme.", self.arrays)
-        recorder.restore(_without_prefix("record.", self.arrays))
+        for name, keeper in keepers.items():
+            keeper.restore(_without_prefix(f"{name}.", self.arrays))
         return int(self.meta["step"])
 
 
@@ -111,9 +121,15 @@ class Checkpoints:
     _last: float = float("-inf")
 
     def save(
-        self, step: int, time: float, system: System, stepper: Stepper, recorder: Recorder, start: Start
+        self,
+        instant: tuple[int, float],
+        system: System,
+        stepper: Stepper,
+        keepers: Mapping[str, Keeper],
+        start: Start,
     ) -> None:
         """Write the run as it stands at the end of a macro step, if a checkpoint is due."""
+        step, time = instant
         # Half a millionth of the interval forgives the rounding of instants.
         if time < self._last + self.every * (1.0 - 5e-7):
             return
@@ -133,7 +149,8 @@ class Checkpoints:
             arrays[f"unit{index}"] = np.frombuffer(unit.state_bytes(), dtype=np.uint8)
         arrays |= {f"start.{name}": value for name, value in vars(start).items()}
         arrays |= {f"scheme.{name}": value for name, value in stepper.scheme.memory.items()}
-        arrays |= {f"record.{name}": value for name, value in recorder.arrays().items()}
+        for keeper, watching in keepers.items():
+            arrays |= {f"{keeper}.{name}": value for name, value in watching.arrays().items()}
         write(self.folder / FILE, meta, arrays)
 
 

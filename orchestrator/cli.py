@@ -106,6 +106,7 @@ def run(
         float | None,
         typer.Option(metavar="SHARE", help="Halve steps whose relative defect exceeds it, e.g. 1e-3."),
     ] = None,
+    ledger: Annotated[bool, typer.Option("--ledger", help="Keep the energy ledger; slower.")] = False,
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
     reduction: Annotated[
         Reduction | None,
@@ -139,6 +140,7 @@ def run(
             ("coupling", coupling and str(coupling)),
             ("step", step),
             ("tolerance", tol),
+            ("ledger", ledger or None),
             ("end", end),
             ("reduction", reduction and str(reduction)),
         )

@@ -38,6 +38,8 @@ def rotor_parameters(scenario: Scenario, train: Train) -> Values:
         Values by variable name.
     """
     values: Values = {"reduction": scenario.reduction}
+    if scenario.ledger:
+        values["track_work"] = True
     grade = scenario.unbalance.grade
     scale = 1.0 if grade is None else grade / train.balance_grade
     event = scenario.event

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from time import perf_counter
 
 from orchestrator.coupling import Advance, Coupling
+from orchestrator.ledger import Ledger
 from orchestrator.outcome import Outcome
 from orchestrator.recorder import Recorder
 from orchestrator.stepping import NotFinite, StepCounts, StepFailure, Stepper
@@ -97,6 +98,7 @@ def run(
     course: Course,
     *,
     on_time: Callable[[float], None],
+    ledger: Ledger | None = None,
     save: Save | None = None,
     resume: Callable[[Stepper], int] | None = None,
 ) -> RunEnd:
@@ -114,6 +116,8 @@ def run(
         The macro steps.
     on_time : callable
         Called with the simulated time after each macro step.
+    ledger : Ledger, optional
+        Sees the start and every step, too.
     save : callable, optional
         See `Save`.
     resume : callable, optional
@@ -128,11 +132,13 @@ def run(
     outcome, message = Outcome.FINISHED, ""
     time = 0.0
 
-    def on_step(_start: float, end: float, advance: Advance) -> None:
+    def on_step(start: float, end: float, advance: Advance) -> None:
         nonlocal time, recording
         watched = perf_counter()
         time = end
         recorder.watch(end, advance.defect)
+        if ledger is not None:
+            ledger.watch(end - start)
         recording += perf_counter() - watched
 
     stepper = Stepper(system, scheme, course.tolerance, on_step)
@@ -143,6 +149,8 @@ def run(
         else:
             recorder.watch(0.0)
             recorder.record(0, 0.0)
+            if ledger is not None:
+                ledger.begin()
             if save is not None:
                 save(0, 0.0, stepper)
         time = course.instant(first)

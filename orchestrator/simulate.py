@@ -8,11 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from orchestrator.assembly import assemble
+from orchestrator.checkpoint import Keeper
 from orchestrator.coupling import SCHEMES, make_scheme
 from orchestrator.equilibrium import Start, begin, find_start
 from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import evaluate
 from orchestrator.fmu_file import FmuStore
+from orchestrator.ledger import Ledger
+from orchestrator.ledger_summary import with_ledger
 from orchestrator.outcome import Outcome
 from orchestrator.record import empty_record, make_record
 from orchestrator.recorder import Recorder
@@ -128,10 +131,12 @@ def carry_out(
     recorder = Recorder(system, train.nodes, course.steps, stride)
     loads = np.abs(start.loads)
     system.set_scale(float(loads.mean()), [seat.width for seat in train.bearings])
+    ledger = Ledger(system) if scenario.ledger else None
+    keepers: dict[str, Keeper] = {"record": recorder, **({} if ledger is None else {"ledger": ledger})}
 
     def save(step: int, time: float, stepper: Stepper) -> None:
         if checkpoints is not None:
-            checkpoints.save(step, time, system, stepper, recorder, start)
+            checkpoints.save((step, time), system, stepper, keepers, start)
 
     before = [(group.step_time, group.exchange_time) for group in system.groups]
     end = run(
@@ -141,7 +146,8 @@ def carry_out(
         course,
         on_time=lambda time: announce(Stage.RUN, time),
         save=save,
-        resume=None if resume is None else lambda stepper: resume.restore_run(stepper, recorder),
+        resume=None if resume is None else lambda stepper: resume.restore_run(stepper, keepers),
+        ledger=ledger,
     )
     (rotor, rotor_exchange), (film, film_exchange) = (
         (group.step_time - earlier[0], group.exchange_time - earlier[1])
@@ -150,10 +156,12 @@ def carry_out(
     fmi = rotor_exchange + film_exchange
     rest = end.wall_time - film - rotor - fmi - end.record_time
     provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+    record = make_record(recorder, start, scenario, train, end.outcome, end.message, provenance)
+    record = record.assign_attrs(end.counts.attributes(system.bearing_group.evaluations))
+    if ledger is not None and not system.rotor.failed:
+        record = with_ledger(record, ledger.balance())
     return Result(
-        make_record(recorder, start, scenario, train, end.outcome, end.message, provenance).assign_attrs(
-            end.counts.attributes(system.bearing_group.evaluations)
-        ),
+        record,
         end.outcome,
         end.message,
         Timing(load, equilibrium, film, rotor, fmi, end.record_time, rest),

@@ -11,6 +11,7 @@ import sys
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from orchestrator.ledger_summary import LedgerSummary, ledger_of
 from orchestrator.statistics import (
     BearingStatistics,
     DefectStatistics,
@@ -75,6 +76,8 @@ class RunSummary:
         Largest resident memory of the process so far [B].
     defect : DefectStatistics or None
         Error estimate of the coupling.
+    ledger : LedgerSummary or None
+        Energy ledger, if it was kept.
     analysed : str or None
         The analysed bearing.
     phases : tuple of Phase
@@ -102,6 +105,7 @@ class RunSummary:
     timing: Timing
     peak_memory: int
     defect: DefectStatistics | None
+    ledger: LedgerSummary | None
     analysed: str | None
     phases: tuple[Phase, ...]
     shaft: tuple[ShaftStatistics, ...]
@@ -189,6 +193,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         timing=result.timing,
         peak_memory=peak_memory(),
         defect=defect_statistics(record),
+        ledger=ledger_of(record),
         analysed=analysed_bearing(record, analysed) if found else None,
         phases=found,
         shaft=tuple(shaft_statistics(record, phase) for phase in found),

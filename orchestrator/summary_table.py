@@ -11,6 +11,7 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
 
+from orchestrator.ledger_summary import LedgerSummary
 from orchestrator.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.summary import RunSummary
@@ -71,6 +72,18 @@ def _steps_text(summary: RunSummary) -> str:
     return text
 
 
+def _ledger_text(ledger: LedgerSummary) -> str:
+    """The balance in one sentence, and the bearing where the coupling misses most."""
+    film, contact = (sum(getattr(row, name) for row in ledger.bearings) for name in ("film", "contact"))
+    worst = max(ledger.bearings, key=lambda row: abs(row.residue))
+    return (
+        f"stored {ledger.stored:.4g} J = films {film:.4g} (contact {contact:.4g}) + unbalance "
+        f"{ledger.unbalance:.4g} - damping {ledger.damping:.4g} + coupling {ledger.gap:.2g} J: "
+        f"{100 * ledger.relative_gap:.2g} % of the work exchanged; "
+        f"most at {worst.bearing}, {worst.residue:.2g} J"
+    )
+
+
 def _facts(summary: RunSummary) -> Table:
     timing = summary.timing
     rate = f", {summary.simulated / timing.loop:.3g} s a second" if timing.loop > 0 else ""
@@ -101,6 +114,8 @@ def _facts(summary: RunSummary) -> Table:
                 f"{share} at {summary.defect.bearing}, {summary.defect.time:.4f} s",
             )
         )
+    if summary.ledger is not None:
+        rows.append(("energy", _ledger_text(summary.ledger)))
     if summary.peak_memory:
         rows.append(("peak memory", f"{summary.peak_memory / 1e9:.2f} GB"))
     rows += _shaft_text(summary)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,7 @@ class RotorSlave(UnitSlave):
             "gravity": self._value("gravity"),
             "speed": float(self.inputs[0]),
             "fracture_time": self._value("fracture.time"),
+            "track_work": bool(self._value("track_work")),
         }
         for key in ("unbalance", "unbalance_phase", "blade_unbalance", "blade_phase"):
             built_for[key] = self._per_wheel(key)
@@ -111,9 +113,16 @@ class RotorSlave(UnitSlave):
         self._journals[:] = self._rotor.kinematics()
 
     def observe(self, group: str) -> None:
-        """Write the largest amplitude and stress, or displacement, amplitude and stress of all nodes."""
+        """Write extremes over the shaft, energies, works, or the fields over all nodes."""
         if group == "extremes":
             self.values[self.layout.block("amplitude.max", "stress.max_z")] = self._rotor.extremes()
+            return
+        if group == "energy":
+            self.values[self.layout.block(port.ENERGY[0], port.ENERGY[-1])] = self._rotor.energy()
+            return
+        if group == "work":
+            work = self._rotor.work() if self._value("track_work") else math.nan
+            self.values[self.layout.block(port.WORK[0], port.WORK[-1])] = work
             return
         fields, nodes = self._rotor.fields(), self._train.nodes
         for key in ("x", "y", "amplitude", "stress"):

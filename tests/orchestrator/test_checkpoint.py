@@ -25,7 +25,7 @@ BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
 CASES = {
     "plain": {},
     "controlled": {"coupling": "gauss-seidel", "tolerance": 0.015},
-    "newton": {"coupling": "newton"},
+    "newton": {"coupling": "newton", "ledger": True},
     "iqn-ils": {"coupling": "iqn-ils"},
 }
 
