@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from orchestrator.scenario import Scenario
     from orchestrator.summary import RunSummary
 
+CERTIFIED = ("force_mean", "force_max", "moment_max", "least_gap_min", "amplitude_max", "stress_max")
+"""Quantities whose largest changes the summary's text and the record name; the JSON holds all."""
+
 _NAMES = ("bearing", "phase")
 SECOND_ORDER = 4.0
 """Share by which the defect of a step falls when the step is halved; the tolerance falls with it."""
@@ -60,6 +63,19 @@ class Certificate:
     outcome: str
     step: float
     differences: tuple[Difference, ...]
+
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the record: outcome and step, and the largest relative changes."""
+        largest = {name: self.largest(name) for name in CERTIFIED}
+        return {
+            "half_step": self.step,
+            "half_step_outcome": self.outcome,
+            **{
+                f"half_step_{name}": found.relative
+                for name, found in largest.items()
+                if found is not None and found.relative is not None
+            },
+        }
 
     def largest(self, quantity: str) -> Difference | None:
         """The largest relative difference of a quantity over phases and bearings."""

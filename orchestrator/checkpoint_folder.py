@@ -34,6 +34,7 @@ def checkpoints(scenario: Scenario, request: RunRequest, folder: Path) -> Checkp
         "bearing": request.bearing,
         "formats": list(request.formats),
         "every": request.checkpoint,
+        "certify": request.certify,
     }
     return Checkpoints(checkpoint_folder(folder), request.checkpoint, about)
 

@@ -124,6 +124,9 @@ def run(
         float | None,
         typer.Option(min=1e-6, metavar="EVERY", help="Simulated seconds between checkpoints; see resume."),
     ] = None,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Run again at half the step; keep the energy ledger.")
+    ] = False,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
     figure_format: Annotated[
         list[Format] | None,
@@ -154,7 +157,7 @@ def run(
         from orchestrator.run_command import run as run_scenario
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
-        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint)
+        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint, certify)
         return run_scenario(request, Console(), Console(stderr=True))
 
     guarded(work)

@@ -45,6 +45,7 @@ def resume(folder: Path, console: Console, errors: Console) -> int:
             bearing=about["bearing"],
             formats=tuple(about["formats"]),
             checkpoint=about["every"],
+            certify=about["certify"],
         )
     except KeyError as error:
         raise CheckpointError(f"{saved.path}: {error} is missing") from None

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
 from orchestrator import exit_status
+from orchestrator.certify import at_half_step, certify
 from orchestrator.checkpoint_folder import checkpoints, discard
 from orchestrator.errors import OrchestratorError
 from orchestrator.figures.write import write_figures
@@ -18,7 +19,7 @@ from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
 from orchestrator.record_files import write_record
 from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
-from orchestrator.scenario_file import load_scenario, scenario_toml, train_of
+from orchestrator.scenario_file import load_scenario, scenario_toml, train_of, with_overrides
 from orchestrator.simulate import Execution, Result, simulate
 from orchestrator.summary import RunSummary, summarise
 from orchestrator.summary_table import SummaryTable, to_text
@@ -49,6 +50,8 @@ class RunRequest:
         File types of the figures; none for no figures.
     checkpoint : float or None
         Simulated time from one checkpoint to the next in s; None: no checkpoints.
+    certify : bool
+        Run once more at half the step, with the energy ledger in both, and say what changes.
     """
 
     source: str
@@ -58,6 +61,7 @@ class RunRequest:
     bearing: str | None = None
     formats: Sequence[str] = ("png",)
     checkpoint: float | None = None
+    certify: bool = False
 
 
 def default_folder(source: str, scenario: Scenario) -> Path:
@@ -90,6 +94,8 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     if request.source.endswith(".ssp"):
         if request.checkpoint is not None:
             raise OrchestratorError("--checkpoint: a run of an SSP cannot be resumed")
+        if request.certify:
+            raise OrchestratorError("--certify: a run of an SSP has no certificate; run the scenario instead")
         from orchestrator.ssp.run_command import run_ssp
 
         return run_ssp(request, console, errors)
@@ -104,6 +110,8 @@ def carry_out_request(
     saved: Checkpoint | None = None,
 ) -> int:
     """Run a scenario from its start or from a checkpoint; otherwise see `run`."""
+    if request.certify and not scenario.ledger:
+        scenario = with_overrides(scenario, {"ledger": True})
     train = train_of(scenario)
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
@@ -113,10 +121,18 @@ def carry_out_request(
     with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
         execution = Execution(checkpoints(scenario, request, folder), saved)
         result = simulate(scenario, request.fmus, progress, execution)
-    status = conclude(result, scenario, train, request, folder, console, errors)
+    half = _at_half_step(scenario, request, console) if request.certify and result.outcome.ok else None
+    status = conclude(result, scenario, train, request, folder, console, errors, half)
     if result.outcome.ok and request.checkpoint is not None:
         discard(folder)
     return status
+
+
+def _at_half_step(scenario: Scenario, request: RunRequest, console: Console) -> Result:
+    console.print("Certificate: the same run at half the step", highlight=False)
+    finer = at_half_step(scenario)
+    with show_progress(finer.end, console) as show, interrupt_between_steps(show) as progress:
+        return simulate(finer, request.fmus, progress)
 
 
 def check_bearing(request: RunRequest, train: Train) -> None:
@@ -136,9 +152,17 @@ def conclude(
     folder: Path,
     console: Console,
     errors: Console,
+    half: Result | None = None,
 ) -> int:
-    """Write what a run gave, say what came out, and return the exit status."""
+    """Write what a run gave, say what came out, and return the exit status.
+
+    With the result of the same run at `half` the step, a certificate goes into summary and record.
+    """
     summary = summarise(result, analysed=request.bearing)
+    if half is not None:
+        certificate = certify(summary, summarise(half, analysed=request.bearing))
+        summary = replace(summary, certificate=certificate)
+        result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
     console.print(SummaryTable(summary))
     if not result.outcome.ok:
         folder = partial_folder(folder)

@@ -25,6 +25,7 @@ from orchestrator.statistics import (
 from orchestrator.windows import Phase, fracture_time, phases
 
 if TYPE_CHECKING:
+    from orchestrator.certify import Certificate
     from orchestrator.simulate import Result, Timing
     from orchestrator.stepping import StepCounts
 
@@ -86,6 +87,8 @@ class RunSummary:
         One a phase.
     bearings : tuple of BearingStatistics
         One a phase and bearing.
+    certificate : Certificate or None
+        What halving the step changes, if that was asked for.
     """
 
     title: str
@@ -110,6 +113,7 @@ class RunSummary:
     phases: tuple[Phase, ...]
     shaft: tuple[ShaftStatistics, ...]
     bearings: tuple[BearingStatistics, ...]
+    certificate: Certificate | None = None
 
     def of_phase(self, phase: Phase) -> tuple[BearingStatistics, ...]:
         """Statistics of all bearings in one phase."""

@@ -11,7 +11,9 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
 
+from orchestrator.certify import CERTIFIED, Certificate
 from orchestrator.ledger_summary import LedgerSummary
+from orchestrator.outcome import Outcome
 from orchestrator.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.summary import RunSummary
@@ -84,6 +86,20 @@ def _ledger_text(ledger: LedgerSummary) -> str:
     )
 
 
+def _certificate_text(certificate: Certificate) -> str:
+    """The largest changes at half the step, of the quantities that count."""
+    text = f"at half the step, {certificate.step * 1e3:.3g} ms: "
+    if certificate.outcome != Outcome.FINISHED.value:
+        return f"{text}not finished, {certificate.outcome}"
+    parts = []
+    for quantity in CERTIFIED:
+        found = certificate.largest(quantity)
+        if found is not None and found.relative is not None:
+            where = " ".join(part for part in (found.bearing, found.phase) if part)
+            parts.append(f"{quantity.replace('_', ' ')} {100 * found.relative:.2g} % ({where})")
+    return text + "largest changes " + ", ".join(parts)
+
+
 def _facts(summary: RunSummary) -> Table:
     timing = summary.timing
     rate = f", {summary.simulated / timing.loop:.3g} s a second" if timing.loop > 0 else ""
@@ -116,6 +132,8 @@ def _facts(summary: RunSummary) -> Table:
         )
     if summary.ledger is not None:
         rows.append(("energy", _ledger_text(summary.ledger)))
+    if summary.certificate is not None:
+        rows.append(("certificate", _certificate_text(summary.certificate)))
     if summary.peak_memory:
         rows.append(("peak memory", f"{summary.peak_memory / 1e9:.2f} GB"))
     rows += _shaft_text(summary)

@@ -243,7 +243,7 @@ def test_an_interrupted_run_keeps_what_was_simulated(short_run):
 
 
 def failing(outcome, end):
-    def simulate(_scenario, _fmus, _progress):
+    def simulate(_scenario, _fmus, _progress, _execution):
         record = synthetic_record.record(end=end)
         return Result(record, outcome, "front: the gap closed", Timing(1, 1, 1, 1, 1, 1, 1), 11000, 22000)
 

@@ -1,0 +1,66 @@
+"""The certificate: the same run at half the step, and what changes."""
+
+import json
+
+import pytest
+from rich.console import Console
+
+from orchestrator.certify import at_half_step, certify
+from orchestrator.record_files import read_record
+from orchestrator.run_command import RunRequest, carry_out_request
+from orchestrator.simulate import simulate
+from orchestrator.summary import summarise
+from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
+
+BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
+
+
+@pytest.fixture(scope="module")
+def fmus(toy_fmus, tmp_path_factory):
+    return toy_fmu_folder(toy_fmus, tmp_path_factory.mktemp("named"))
+
+
+def test_half_the_step_is_recorded_at_the_same_instants(tmp_path):
+    scenario = toy_scenario(tmp_path, record={"interval": 2.4e-3}, tolerance=1e-3)
+    half = at_half_step(scenario)
+    assert (half.step, half.record.interval, half.tolerance) == (5e-4, 2e-3, 2.5e-4)
+    assert half.end == scenario.end
+
+
+def test_every_number_of_the_summary_is_compared(fmus, tmp_path):
+    scenario = toy_scenario(tmp_path, event=BLADE, end=0.1)
+    summary, half = (summarise(simulate(s, fmus)) for s in (scenario, at_half_step(scenario)))
+    certificate = certify(summary, half)
+    assert certificate.step == 5e-4
+    row, other = summary.bearings[0], half.bearings[0]
+    found = next(
+        d
+        for d in certificate.differences
+        if (d.quantity, d.bearing, d.phase) == ("force_max", row.bearing, row.phase)
+    )
+    assert (found.value, found.at_half_step) == (row.force_max, other.force_max)
+    assert found.difference == row.force_max - other.force_max
+    assert found.relative == pytest.approx(abs(found.difference) / max(row.force_max, other.force_max))
+    assert 0.0 < certificate.largest("force_max").relative < 0.05
+    numbers = len(vars(row)) - 2, len(vars(summary.shaft[0])) - 1
+    expected = numbers[0] * len(summary.bearings) + numbers[1] * len(summary.shaft)
+    assert len(certificate.differences) == expected
+
+
+def test_a_run_equals_itself(fmus, tmp_path):
+    summary = summarise(simulate(toy_scenario(tmp_path, event=BLADE), fmus))
+    assert all(not d.difference for d in certify(summary, summary).differences)
+
+
+def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
+    monkeypatch.setattr("orchestrator.run_command.ensure_fmus", lambda *_: None)
+    scenario = toy_scenario(tmp_path, event=BLADE, end=0.1)
+    out, console = tmp_path / "out", Console(quiet=True)
+    request = RunRequest("toy", out=out, fmus=fmus, formats=(), certify=True)
+    assert carry_out_request(request, scenario, console, console) == 0
+    text = (out / "summary.txt").read_text()
+    assert "at half the step, 0.5 ms: largest changes force mean" in " ".join(text.split())
+    data = json.loads((out / "summary.json").read_text())
+    assert data["certificate"]["outcome"] == "finished"
+    assert data["ledger"]["bearings"][0]["bearing"] == "front"
+    assert read_record(out).attrs["half_step_force_max"] < 0.05
