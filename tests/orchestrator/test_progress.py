@@ -25,6 +25,7 @@ def test_no_speed_before_time_has_passed():
 def run(console):
     with show_progress(2.0, console) as report:
         report(Stage.LOAD, 0.0)
+        report(Stage.WARM_UP, 0.0)
         report(Stage.EQUILIBRIUM, 0.0)
         report(Stage.RUN, 0.0)
         for k in range(1, 20001):
@@ -35,8 +36,8 @@ def test_a_log_gets_a_line_every_ten_per_cent():
     buffer = StringIO()
     run(Console(file=buffer, width=100))
     lines = buffer.getvalue().splitlines()
-    assert lines[:3] == [f"{stage} ..." for stage in Stage]
-    assert [line.split(" %")[0].strip() for line in lines[3:]] == [str(k) for k in range(10, 101, 10)]
+    assert lines[:4] == [f"{stage} ..." for stage in Stage]
+    assert [line.split(" %")[0].strip() for line in lines[4:]] == [str(k) for k in range(10, 101, 10)]
     assert "\x1b" not in buffer.getvalue()
 
 
