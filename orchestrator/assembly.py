@@ -14,7 +14,7 @@ from orchestrator.unit import Unit, UnitError
 from rotor_fmu.train import Train
 
 
-def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> System:
+def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, threads: int = 1) -> System:
     """Make the system of a scenario.
 
     Parameters
@@ -27,6 +27,8 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> S
         Folder with the FMUs.
     store : FmuStore
         Extracts them.
+    threads : int
+        On which the bearings step.
 
     Returns
     -------
@@ -44,8 +46,10 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> S
     try:
         units.append(Unit(store.open(fmus / rotor_file(train)), "rotor"))
         for seat in train.bearings:
-            units.append(Unit(store.open(bearing_path(scenario, seat.name, fmus)), seat.name))
+            file = store.open(bearing_path(scenario, seat.name, fmus))
+            units.append(Unit(file, seat.name, release_gil=threads > 1))
         system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
+        system.bearing_group.employ(threads)
         system.rotor.set_parameters(rotor_parameters(scenario, train))
         for unit, seat in zip(system.bearings, train.bearings, strict=True):
             values = bearing_parameters(seat, scenario.film)  # a user's own bearing may do without some

@@ -35,6 +35,7 @@ def checkpoints(scenario: Scenario, request: RunRequest, folder: Path) -> Checkp
         "formats": list(request.formats),
         "every": request.checkpoint,
         "certify": request.certify,
+        "threads": request.threads,
     }
     return Checkpoints(checkpoint_folder(folder), request.checkpoint, about)
 

@@ -6,6 +6,7 @@ Only the options are declared here; what a command does is imported when it runs
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -127,6 +128,10 @@ def run(
     certify: Annotated[
         bool, typer.Option("--certify", help="Run again at half the step; keep the energy ledger.")
     ] = False,
+    threads: Annotated[
+        int | None,
+        typer.Option(min=1, metavar="N", help="For the bearings; by default 2 where that pays."),
+    ] = None,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
     figure_format: Annotated[
         list[Format] | None,
@@ -157,7 +162,7 @@ def run(
         from orchestrator.run_command import run as run_scenario
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
-        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint, certify)
+        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint, certify, threads)
         return run_scenario(request, Console(), Console(stderr=True))
 
     guarded(work)
@@ -227,5 +232,11 @@ def _assignments(items: list[str]) -> dict[str, str]:
 
 
 def main() -> None:
-    """Entry point of the command."""
+    """Entry point of the command.
+
+    Linear algebra gets one thread, before numpy is loaded: on matrices of this size more of them
+    wait for one another, and for the threads of the bearings.
+    """
+    for library in ("OPENBLAS", "OMP", "MKL"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     sys.exit(app())

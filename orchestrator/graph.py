@@ -14,6 +14,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from orchestrator.crew import Crew
 from orchestrator.errors import PortError
 from orchestrator.unit import Block, Unit
 
@@ -54,6 +55,7 @@ class Group:
         members = [graph.members[name] for name in names]
         self.units: tuple[Unit, ...] = tuple(m.unit for m in members)
         self._graph = graph
+        self._crew = Crew(self.units)
         self._targets = np.concatenate([m.targets for m in members])
         self._sources = np.concatenate([m.sources for m in members])
         self._feeds = tuple(m.linked.set for m in members if m.linked is not None)
@@ -63,6 +65,15 @@ class Group:
         self.exchange_time = 0.0
         self.hold = graph.hold[self._targets]
         self._measure = np.unique(graph.measure[self._targets], return_inverse=True)[1]
+
+    def employ(self, threads: int) -> None:
+        """Step the units on this many threads from now on."""
+        self._crew.close()
+        self._crew = Crew(self.units, threads)
+
+    def close(self) -> None:
+        """End the threads."""
+        self._crew.close()
 
     def feed(self) -> None:
         """Move the newest outputs along the connections into the inputs of these units."""
@@ -106,8 +117,7 @@ class Group:
         """
         start = perf_counter()
         try:
-            for unit in self.units:
-                unit.do_step(time, step)
+            self._crew.step(time, step)
         finally:
             self.step_time += perf_counter() - start
 

@@ -46,6 +46,7 @@ def resume(folder: Path, console: Console, errors: Console) -> int:
             formats=tuple(about["formats"]),
             checkpoint=about["every"],
             certify=about["certify"],
+            threads=about["threads"],
         )
     except KeyError as error:
         raise CheckpointError(f"{saved.path}: {error} is missing") from None

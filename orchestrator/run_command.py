@@ -52,6 +52,8 @@ class RunRequest:
         Simulated time from one checkpoint to the next in s; None: no checkpoints.
     certify : bool
         Run once more at half the step, with the energy ledger in both, and say what changes.
+    threads : int or None
+        On which the bearings step; None: as many as pay.
     """
 
     source: str
@@ -62,6 +64,7 @@ class RunRequest:
     formats: Sequence[str] = ("png",)
     checkpoint: float | None = None
     certify: bool = False
+    threads: int | None = None
 
 
 def default_folder(source: str, scenario: Scenario) -> Path:
@@ -119,7 +122,7 @@ def carry_out_request(
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     ensure_fmus(request.fmus, train, depths, console)
     with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        execution = Execution(checkpoints(scenario, request, folder), saved)
+        execution = Execution(checkpoints(scenario, request, folder), saved, request.threads)
         result = simulate(scenario, request.fmus, progress, execution)
     half = _at_half_step(scenario, request, console) if request.certify and result.outcome.ok else None
     status = conclude(result, scenario, train, request, folder, console, errors, half)
@@ -132,7 +135,7 @@ def _at_half_step(scenario: Scenario, request: RunRequest, console: Console) -> 
     console.print("Certificate: the same run at half the step", highlight=False)
     finer = at_half_step(scenario)
     with show_progress(finer.end, console) as show, interrupt_between_steps(show) as progress:
-        return simulate(finer, request.fmus, progress)
+        return simulate(finer, request.fmus, progress, Execution(threads=request.threads))
 
 
 def check_bearing(request: RunRequest, train: Train) -> None:

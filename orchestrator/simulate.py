@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -31,6 +32,12 @@ from rotor_fmu.train import Train
 __all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
 
 _PLAIN = Execution()
+
+QUICK_DEPTHS = ("v2", "v3")
+"""Films of some microseconds, which threads would only delay."""
+
+WORTH_A_THREAD = 4
+"""Bearings with a slow film from which a second thread gains more than its handing over costs."""
 
 
 def simulate(
@@ -68,7 +75,7 @@ def simulate(
     clock = Stopwatch()
     with FmuStore() as store:
         announce(Stage.LOAD, 0.0)
-        system = assemble(scenario, train, fmus, store)
+        system = assemble(scenario, train, fmus, store, execution.threads or default_threads(scenario, train))
         try:
             return carry_out(
                 scenario,
@@ -81,6 +88,12 @@ def simulate(
             )
         finally:
             system.close()
+
+
+def default_threads(scenario: Scenario, train: Train) -> int:
+    """Two threads where the films take long enough for it to pay, and there are processors; else one."""
+    slow = sum(scenario.depth_of(seat.name) not in QUICK_DEPTHS for seat in train.bearings)
+    return 2 if slow >= WORTH_A_THREAD and (os.cpu_count() or 1) > 1 else 1
 
 
 def carry_out(

@@ -155,6 +155,7 @@ class System:
 
     def close(self) -> None:
         """Free all units."""
+        self.bearing_group.close()
         self.rollback.close()
         for unit in self.units:
             unit.close()
