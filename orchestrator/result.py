@@ -102,13 +102,13 @@ class Execution:
         Writes the run to disk as it goes.
     resume : Checkpoint or None
         Where to go on instead of at the start.
-    threads : int or None
-        On which the bearings step; None: as many as pay.
+    threads : int
+        On which the bearings step.
     """
 
     checkpoints: Checkpoints | None = None
     resume: Checkpoint | None = None
-    threads: int | None = None
+    threads: int = 1
 
 
 class Stopwatch:

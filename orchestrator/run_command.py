@@ -20,7 +20,7 @@ from orchestrator.progress import show_progress
 from orchestrator.record_files import write_record
 from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
 from orchestrator.scenario_file import load_scenario, scenario_toml, train_of, with_overrides
-from orchestrator.simulate import Execution, Result, simulate
+from orchestrator.simulate import Execution, Result, default_threads, simulate
 from orchestrator.summary import RunSummary, summarise
 from orchestrator.summary_table import SummaryTable, to_text
 
@@ -119,23 +119,25 @@ def carry_out_request(
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
     check_folder(folder)
+    threads = request.threads or default_threads(scenario, train)
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     ensure_fmus(request.fmus, train, depths, console)
     with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        execution = Execution(checkpoints(scenario, request, folder), saved, request.threads)
+        execution = Execution(checkpoints(scenario, request, folder), saved, threads)
         result = simulate(scenario, request.fmus, progress, execution)
-    half = _at_half_step(scenario, request, console) if request.certify and result.outcome.ok else None
+    certified = request.certify and result.outcome.ok
+    half = _at_half_step(scenario, request, console, threads) if certified else None
     status = conclude(result, scenario, train, request, folder, console, errors, half)
     if result.outcome.ok and request.checkpoint is not None:
         discard(folder)
     return status
 
 
-def _at_half_step(scenario: Scenario, request: RunRequest, console: Console) -> Result:
+def _at_half_step(scenario: Scenario, request: RunRequest, console: Console, threads: int) -> Result:
     console.print("Certificate: the same run at half the step", highlight=False)
     finer = at_half_step(scenario)
     with show_progress(finer.end, console) as show, interrupt_between_steps(show) as progress:
-        return simulate(finer, request.fmus, progress, Execution(threads=request.threads))
+        return simulate(finer, request.fmus, progress, Execution(threads=threads))
 
 
 def check_bearing(request: RunRequest, train: Train) -> None:

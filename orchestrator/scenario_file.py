@@ -165,4 +165,4 @@ def _toml_value(value: str | float) -> str:
     if isinstance(value, str):
         escaped = value.replace("\\", "\\\\").replace('"', '\\"')
         return '"' + "".join(c if c >= " " else f"\\u{ord(c):04x}" for c in escaped) + '"'
-    return repr(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)

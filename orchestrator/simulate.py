@@ -75,7 +75,7 @@ def simulate(
     clock = Stopwatch()
     with FmuStore() as store:
         announce(Stage.LOAD, 0.0)
-        system = assemble(scenario, train, fmus, store, execution.threads or default_threads(scenario, train))
+        system = assemble(scenario, train, fmus, store, execution.threads)
         try:
             return carry_out(
                 scenario,

@@ -38,7 +38,7 @@ def test_every_unit_steps_once(threads):
 def test_the_first_error_in_the_order_of_units_counts_and_all_step(threads):
     units = [Counter(str(k), fails=k in (2, 3, 5)) for k in range(7)]
     crew = Crew(units, threads)
-    with pytest.raises(UnitError, match="^2: "):
+    with pytest.raises(UnitError, match=r"^2: "):
         crew.step(0.0, 1e-3)
     crew.close()
     assert all(unit.steps for unit in units)
