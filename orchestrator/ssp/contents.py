@@ -185,7 +185,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     if coupling not in SCHEMES or SCHEMES[coupling].wiring is not contents.wiring:
         allowed = [name for name, scheme in SCHEMES.items() if scheme.wiring is contents.wiring]
         raise SspError(
-            f"{path}: coupling {coupling!r}: the connections are those of the {contents.wiring.value}; "
+            f"{path}: coupling {coupling!r}: the connections carry: {contents.wiring.value}; "
             f"allowed is {' or '.join(allowed)}"
         )
     end = overrides.get("end") or structure.end or DEFAULT_END
