@@ -45,7 +45,8 @@ class BearingSlave(UnitSlave):
     def prepare(self) -> None:
         """Make the film of the parameters."""
         columns, rows = (int(n) for n in self.values[_RESOLUTION])
-        parameters = BearingParameters(*self.values[_PARAMETERS].tolist(), columns, rows)
+        d, b, clearance, eta, ambient, sigma, modulus, friction = self.values[_PARAMETERS].tolist()
+        parameters = BearingParameters(d, b, clearance, eta, ambient, sigma, modulus, friction, columns, rows)
         self._film = make_film(self._depth, parameters)
 
     def start(self) -> None:

@@ -54,7 +54,8 @@ RUN_EPILOG = """\
   1    internal or file error      5    a unit failed
   2    wrong input, no run         6    the motion grew without bound
   3    no static equilibrium       9    the tolerance was missed
-                                   130  interrupted
+  10   the coupling was not resolved: finished, but its numbers mean nothing
+  130  interrupted
 
   From 3 on, what was simulated lies in <DIR>-partial, with the reason
   in PARTIAL.txt.

@@ -14,6 +14,7 @@ STATUS = {
     Outcome.UNIT_FAILED: 5,
     Outcome.NOT_FINITE: 6,
     Outcome.TOLERANCE_MISSED: 9,
+    Outcome.UNRESOLVED: 10,
     Outcome.INTERRUPTED: 130,
 }
 """Exit status of each outcome; 130 is what shells give for an interrupt."""

@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Outcome(Enum):
-    """The end of a run: every member but `FINISHED` means that the record stops early.
+    """The end of a run: but for `FINISHED` and `UNRESOLVED` the record stops early.
 
     Attributes
     ----------
@@ -37,6 +37,11 @@ class Outcome(Enum):
         "tolerance-missed",
         "A step did not meet the tolerance even at a thousandth of its length; a coarser tolerance or the "
         "coupling newton helps, or there is a jump in a unit.",
+    )
+    UNRESOLVED = (
+        "unresolved",
+        "The run reached its end, but the exchange of rotor and bearings was not resolved and its numbers "
+        "mean nothing; take a smaller step or the coupling linear-implicit.",
     )
     NOT_FINITE = (
         "not-finite",

@@ -27,6 +27,7 @@ from orchestrator.scenario_file import train_of
 from orchestrator.stepping import Stepper
 from orchestrator.system import System
 from orchestrator.unit import UnitError
+from orchestrator.validity import unresolved
 from rotor_fmu.train import Train
 
 __all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
@@ -170,13 +171,17 @@ def carry_out(
     rest = end.wall_time - film - rotor - fmi - end.record_time
     provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
     record = make_record(recorder, start, scenario, train, end.outcome, end.message, provenance)
+    outcome, message = end.outcome, end.message
+    if outcome.ok and (message := unresolved(record)):
+        outcome = Outcome.UNRESOLVED
+        record = record.assign_attrs(status=outcome.value, message=message)
     record = record.assign_attrs(end.counts.attributes(system.bearing_group.evaluations))
     if ledger is not None and not system.rotor.failed:
         record = with_ledger(record, ledger.balance())
     return Result(
         record,
-        end.outcome,
-        end.message,
+        outcome,
+        message,
         Timing(load, equilibrium, film, rotor, fmi, end.record_time, rest),
         end.counts.accepted,
         system.bearing_group.evaluations,

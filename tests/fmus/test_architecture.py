@@ -10,7 +10,7 @@ from fmus.sources import source_files
 
 REPOSITORY = Path(__file__).parents[2]
 PHYSICS = ("rotor_fmu", "bearing_fmu")
-# Data types, and the linear analysis of the shaft: matrices and eigenvalues have no time that a unit could step in.
+# Data types, and the linear analysis of the shaft: eigenvalues have no time for a unit to step in.
 OF_PHYSICS_FOR_THE_MASTER = {"rotor_fmu.train", "rotor_fmu.train_file", "rotor_fmu.linear"}
 OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.variable"}
 OF_FMUS_FOR_THE_MASTER = {"fmus.port", "fmus.variable", "fmus.build", "fmus.archive"}

@@ -1,0 +1,44 @@
+"""Whether a run that reached its end time can be believed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+UNRESOLVED = 0.1
+"""Share of the bearing forces, both RMS over the run, that the coupling may miss.
+
+A stable coupling misses a few per cent at steps that are much too long, an unstable one everything.
+"""
+
+
+def unresolved(record: xr.Dataset) -> str:
+    """Tell whether the coupling failed although the run went on to its end.
+
+    Parameters
+    ----------
+    record : xarray.Dataset
+        With the interval extremes ``defect_max`` and ``force_magnitude_max``.
+
+    Returns
+    -------
+    str
+        Empty, or what was missed and at which bearing the most.
+    """
+    order = ("time", "bearing")
+    defect = record["defect_max"].transpose(*order).values
+    force = record["force_magnitude_max"].transpose(*order).values
+    scale = np.sqrt(np.nanmean(force**2))
+    missed = np.sqrt(np.nanmean(defect**2, axis=0)) / scale
+    share = float(np.sqrt(np.mean(missed**2)))
+    if share <= UNRESOLVED:
+        return ""
+    worst = record["bearing"].values[int(np.argmax(missed))]
+    return (
+        f"the coupling missed {100.0 * share:.3g} % of the bearing forces (RMS), most at {worst}; "
+        f"allowed are {100.0 * UNRESOLVED:.3g} %"
+    )

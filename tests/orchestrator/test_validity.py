@@ -1,0 +1,41 @@
+"""A run whose coupling failed does not pass for a finished one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from orchestrator.exit_status import of_outcome
+from orchestrator.outcome import Outcome
+from orchestrator.validity import UNRESOLVED, unresolved
+
+
+def _record(defect, force=1.0):
+    defect = np.asarray(defect, dtype=float)
+    dims = ("time", "bearing")
+    return xr.Dataset(
+        {"defect_max": (dims, defect), "force_magnitude_max": (dims, np.full(defect.shape, force))},
+        coords={"bearing": [f"b{i}" for i in range(defect.shape[1])]},
+    )
+
+
+@pytest.mark.parametrize(("share", "fails"), [(0.99 * UNRESOLVED, False), (1.01 * UNRESOLVED, True)])
+def test_the_limit_is_a_share_of_the_forces(share, fails):
+    """On both sides of the limit; scaling forces and defects alike changes nothing."""
+    assert bool(unresolved(_record([[share, share]]))) is fails
+    assert bool(unresolved(_record([[1e6 * share, 1e6 * share]], force=1e6))) is fails
+
+
+def test_the_worst_bearing_is_named():
+    assert "b1" in unresolved(_record([[0.0, 0.5], [0.1, 0.9]]))
+
+
+def test_the_outcome_is_no_success():
+    assert not Outcome.UNRESOLVED.ok
+    assert of_outcome(Outcome.UNRESOLVED) == 10
+
+
+def test_a_first_instant_without_defect_counts_not():
+    """Nothing was coupled yet: the record has NaN there."""
+    assert not unresolved(_record([[np.nan, np.nan], [0.0, 0.0]]))
