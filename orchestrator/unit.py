@@ -128,10 +128,9 @@ class Unit:
         except Exception as error:  # fmpy raises bare exceptions here
             reason = "; ".join(self._messages) or str(error)
             raise FmuError(f"{file.path}: cannot be instantiated as {name}: {reason}") from None
-        library = self._slave.dll._name
-        self._library = ctypes.PyDLL(library)
+        self._library = file.library
         self.component = ctypes.c_void_p(self._slave.component)
-        self._do_step = (ctypes.CDLL(library) if release_gil else self._library).fmi2DoStep
+        self._do_step = (self._slave.dll if release_gil else self._library)["fmi2DoStep"]
         self._do_step.restype = ctypes.c_int
         self._do_step.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int]
 

@@ -9,10 +9,10 @@ import numpy as np
 if TYPE_CHECKING:
     import xarray as xr
 
-UNRESOLVED = 0.1
+UNRESOLVED = 0.3
 """Share of the bearing forces, both RMS over the run, that the coupling may miss.
 
-A stable coupling misses a few per cent at steps that are much too long, an unstable one everything.
+A stable coupling misses some per cent at steps that are much too long, an unstable one everything.
 """
 
 
