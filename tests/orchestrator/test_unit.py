@@ -116,6 +116,19 @@ def test_the_store_leaves_nothing_behind(store, toy_fmus):
     assert not folder.exists()
 
 
+def test_the_store_ends_the_libraries_that_were_used(store, toy_fmus):
+    """A library of pythonfmu that ends at the exit of the process only writes to freed memory."""
+    file = store.open(toy_fmus / "spring_damper.fmu")
+    unused = store.open(toy_fmus / "two_masses.fmu")
+    unit = started(Unit(file, "spring"))
+    unit.close()
+    ended = []
+    file.library.finalizePythonInterpreter = lambda: ended.append(file)
+    store.close()
+    assert ended == [file]
+    assert "library" not in unused.__dict__
+
+
 def test_a_missing_file_is_named(store, toy_fmus):
     with pytest.raises(FmuError, match=r"bearing_v9\.fmu: no such file"):
         store.open(toy_fmus / "bearing_v9.fmu")
