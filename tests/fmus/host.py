@@ -1,6 +1,7 @@
 """A host of FMUs for the tests: fmpy's slave with the log kept and access by name."""
 
-from ctypes import byref, c_void_p
+import atexit
+from ctypes import PyDLL, byref, c_void_p
 from pathlib import Path
 
 from fmpy import extract, read_model_description
@@ -16,6 +17,15 @@ from fmpy.fmi2 import (
 )
 
 DISCARD = 2
+_libraries: dict[str, PyDLL] = {}
+
+
+@atexit.register
+def _end_libraries() -> None:
+    """Libraries of pythonfmu 0.7 that end later than the interpreter write to freed memory."""
+    for library in _libraries.values():
+        library.finalizePythonInterpreter.restype = None
+        library.finalizePythonInterpreter()
 
 
 class Host:
@@ -42,6 +52,8 @@ class Instance:
             unzipDirectory=str(host.folder),
             instanceName=name,
         )
+        library = self.slave.dll._name
+        _libraries.setdefault(library, PyDLL(library))
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.logger = fmi2CallbackLoggerTYPE(self._keep)
         self._callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
