@@ -120,7 +120,9 @@ def test_eleven_bearings_of_each_depth_in_one_process(tool, fmus, tmp_path):
     expected = forces("fmpy", ssp, H, 5 * H, tmp_path / "expected.npz")
     for name, series in found.items():
         np.testing.assert_array_equal(series, expected[name])
-    assert len({series[-1, 1] for series in found.values()}) == 33
+    for depth in ("v1", "v2", "v3"):  # aligned, V1 and V2 may agree to the last bit
+        own = {series[-1, 1] for name, series in found.items() if name.startswith(depth)}
+        assert len(own) == 11
 
 
 @pytest.mark.parametrize("tool", TOOLS)

@@ -21,10 +21,10 @@ def fmus(tmp_path_factory):
     return folder
 
 
-def ledger_of(fmus, **change):
+def ledger_of(fmus, outcome=Outcome.FINISHED, **change):
     base = {"depth": "v3", "end": 12e-3, "event": {"time": 4.1e-3}, "ledger": True}
     result = simulate(load_scenario("small", {**base, **change}), fmus)
-    assert result.outcome is Outcome.FINISHED, result.message
+    assert result.outcome is outcome, result.message
     return summarise(result).ledger
 
 
@@ -57,7 +57,8 @@ def test_the_ledger_closes_best_with_newton(fmus):
 
 
 def test_the_ledger_shows_what_explicit_coupling_creates(fmus):
-    explicit = ledger_of(fmus, coupling="gauss-seidel", step=2e-5, end=6e-3)
+    """And the run says itself that its numbers mean nothing."""
+    explicit = ledger_of(fmus, Outcome.UNRESOLVED, coupling="gauss-seidel", step=2e-5, end=6e-3)
     assert explicit.relative_gap > 0.1
     assert all(row.residue > 0.0 for row in explicit.bearings)
 
