@@ -131,11 +131,11 @@ def test_kill_at_random_moments_of_the_small_train(tmp_path):
     """Three times SIGKILL, wherever it strikes: in a step, a record, or the writing of a checkpoint."""
     folder = tmp_path / "fmus"
     build(folder, [train_of(load_scenario("small"))])
-    options = ["small", "--depth", "v2", "--end", "0.2", "--no-figures", "--fmus", folder]
+    options = ["small", "--depth", "v2", "--end", "1.2", "--no-figures", "--fmus", folder]
     assert command("run", *options, "--out", tmp_path / "whole").wait() == 0
     out = tmp_path / "killed"
     saved = checkpoint_folder(out) / checkpoint.FILE
-    process = command("run", *options, "--out", out, "--checkpoint", "0.002")
+    process = command("run", *options, "--out", out, "--checkpoint", "0.005")
     chance = random.Random(5)
     for _ in range(3):
         before = saved.stat().st_mtime_ns if saved.exists() else 0
