@@ -31,7 +31,8 @@ for cycle in range(30):
     alive = sum(isinstance(o, UnitSlave) for o in gc.get_objects())
     assert alive == 0, f"{alive} instances are alive after cycle {cycle}"
 print(sizes)
-print(sizes[-1] - sizes[9])
+steps = sorted(after - before for before, after in zip(sizes[9:], sizes[10:]))
+print(steps[len(steps) // 2])
 """
 
 UNTIDY = """
@@ -51,10 +52,14 @@ def call(script, *arguments):
 
 @pytest.mark.parametrize("name", ["rotor_small.fmu", "bearing_v1.fmu", "bearing_v3.fmu"])
 def test_twenty_cycles_of_load_and_free_do_not_grow(name, built, tmp_path):
-    """Resident memory after cycles 10 and 30, in MB."""
+    """Median growth of the resident memory from cycle to cycle, in MB.
+
+    What is not freed is missing after every cycle.  The allocator asks the system for some MB at once
+    now and then, at any cycle: the difference of two cycles says nothing.
+    """
     done = call(CYCLES, built[name], tmp_path / "unzipped")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert float(done.stdout.splitlines()[-1]) < 2.0, done.stdout
+    assert float(done.stdout.splitlines()[-1]) < 0.05, done.stdout
 
 
 def test_a_process_that_frees_nothing_ends_with_its_own_status(built, tmp_path):
