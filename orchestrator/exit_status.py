@@ -15,9 +15,13 @@ STATUS = {
     Outcome.NOT_FINITE: 6,
     Outcome.TOLERANCE_MISSED: 9,
     Outcome.UNRESOLVED: 10,
+    Outcome.FILM_FAILED: 11,
+    Outcome.UNIT_HUNG: 12,
+    Outcome.NOT_WRITTEN: 13,
     Outcome.INTERRUPTED: 130,
+    Outcome.TERMINATED: 143,
 }
-"""Exit status of each outcome; 130 is what shells give for an interrupt."""
+"""Exit status of each outcome; 130 and 143 are what shells give for SIGINT and SIGTERM."""
 
 PROCESS_DIED = 8
 """A run's own process ended without a result; its exit code or signal is said."""

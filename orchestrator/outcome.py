@@ -29,6 +29,16 @@ class Outcome(Enum):
         "A unit could not carry out a step; the message names it and its state. A smaller step or the "
         "coupling linear-implicit usually helps.",
     )
+    FILM_FAILED = (
+        "film-failed",
+        "The film of a bearing has no solution in the state that the journal reached; the message names the "
+        "bearing, its state and what to try.",
+    )
+    UNIT_HUNG = (
+        "unit-hung",
+        "A unit did not come back from a call within its budget of time and was given up; the message names "
+        "it. Another depth at that bearing, or a larger budget if the unit is merely slow.",
+    )
     UNIT_FAILED = (
         "unit-failed",
         "A unit ended with an error that it cannot recover from; the message holds what it logged.",
@@ -47,7 +57,17 @@ class Outcome(Enum):
         "not-finite",
         "The coupled motion grew without bound; take a smaller step or the coupling linear-implicit.",
     )
+    NOT_WRITTEN = (
+        "not-written",
+        "The results could not be written: disk full, or a folder that is read-only. Make room, or name "
+        "another folder with --out, and run again.",
+    )
     INTERRUPTED = ("interrupted", "The run was stopped by the user; the record holds what was simulated.")
+    TERMINATED = (
+        "terminated",
+        "The process was told to end (SIGTERM); the record holds what was simulated, and a run with "
+        "checkpoints can be resumed.",
+    )
 
     def __new__(cls, value: str, advice: str) -> Outcome:
         """Make the first item the value, the second the advice."""
