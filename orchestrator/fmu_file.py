@@ -6,17 +6,21 @@ import ctypes
 import re
 import shutil
 import tempfile
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import TracebackType
 from typing import Any
-from zipfile import BadZipFile
 
 import fmpy
 
 from orchestrator.errors import FmuError
+from orchestrator.safe_archive import LIMITS, ArchiveError, Limits, extract
+from orchestrator.safe_xml import XmlError, read_xml
 
 _SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+")
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_READ = ("modelDescription.xml", "sources/buildDescription.xml")  # by fmpy, which takes what XML can do
 _FALLBACK = "/tmp"  # where TMPDIR has characters that hosts of Python FMUs trip over
 
 
@@ -33,29 +37,58 @@ class FmuFile:
         Its modelDescription.xml.
     variables : dict
         The description's scalar variables by name.
+    size : int
+        Bytes that it holds extracted.
+
+    Raises
+    ------
+    FmuError
+        When the file is missing, no FMI 2.0 co-simulation unit, or could do harm when extracted or read.
     """
 
-    def __init__(self, path: Path, folder: Path) -> None:
+    def __init__(self, path: Path, folder: Path, limits: Limits = LIMITS) -> None:
         self.path = path
         self.folder = folder
         try:
-            fmpy.extract(path, folder)
+            self.size = extract(path, folder, "FMU", limits)
+            for name in _READ:
+                if name == _READ[0] or (folder / name).exists():
+                    read_xml(folder / name)
             self.description: Any = fmpy.read_model_description(folder)
-        except FileNotFoundError:
+        except FileNotFoundError as error:
+            if path.exists():
+                raise FmuError(f"{path}: not a valid FMU: without {Path(str(error.filename)).name}") from None
             raise FmuError(f"{path}: no such file; `bladeloss build` makes the FMUs") from None
-        except (BadZipFile, OSError) as error:
-            raise FmuError(f"{path}: not a readable FMU: {error}") from None
+        except ArchiveError as error:
+            raise FmuError(str(error)) from None
+        except XmlError as error:
+            raise FmuError(f"{path}: {error}") from None
         except Exception as error:  # fmpy raises bare exceptions for a description that breaks the schema
             raise FmuError(f"{path}: not a valid FMU: {error}") from None
         if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:
             raise FmuError(f"{path}: not an FMI 2.0 co-simulation unit")
+        identifier = str(self.description.coSimulation.modelIdentifier)
+        if not _IDENTIFIER.fullmatch(identifier):  # it names the library that is loaded
+            raise FmuError(
+                f"{path}: modelIdentifier {identifier!r}; allowed are letters, digits and underscores"
+            )
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
 
+    @property
+    def is_python(self) -> bool:
+        """Whether the unit is Python in a library of pythonfmu, and takes Python's lock by itself."""
+        return (self.folder / "resources" / "slavemodule.txt").is_file()
+
     @cached_property
-    def library(self) -> ctypes.PyDLL:
-        """The FMU's C library, for calls that hold Python's lock."""
+    def library(self) -> ctypes.CDLL:
+        """The FMU's C library.
+
+        Calls of a unit in Python keep Python's lock, which is quicker. Those of other units let go of it,
+        so that a watchdog can end a run whose unit does not come back.
+        """
         name = f"{self.description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-        return ctypes.PyDLL(str(self.folder / "binaries" / fmpy.platform / name))
+        kind = ctypes.PyDLL if self.is_python else ctypes.CDLL
+        return kind(str(self.folder / "binaries" / fmpy.platform / name))
 
     def end_library(self) -> None:
         """Let the library of an FMU in Python take leave of the interpreter; no instance may live any more.
@@ -82,6 +115,7 @@ class FmuStore:
             tempfile.mkdtemp(prefix="bladeloss_", dir=root if _SAFE_PATH.fullmatch(root) else _FALLBACK)
         )
         self._files: dict[Path, FmuFile] = {}
+        self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
 
     def open(self, path: Path) -> FmuFile:
         """Return the extracted FMU at `path`; several calls share one extraction.
@@ -89,19 +123,25 @@ class FmuStore:
         Raises
         ------
         FmuError
-            When the file is missing or no FMI 2.0 co-simulation unit.
+            As `FmuFile`.
         """
         key = path.resolve()
         if key not in self._files:
-            self._files[key] = FmuFile(path, self._folder / f"fmu{len(self._files)}")
+            limits = replace(LIMITS, total=self._left)
+            self._files[key] = FmuFile(path, self._folder / f"fmu{len(self._files)}", limits)
+            self._left -= self._files[key].size
         return self._files[key]
 
     def close(self) -> None:
         """Remove what was extracted; no instance may live any more."""
         for file in self._files.values():
             file.end_library()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self.remove()
         self._files.clear()
+
+    def remove(self) -> None:
+        """Remove the files alone, where a unit is still in a call that does not end."""
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     def __enter__(self) -> FmuStore:
         return self

@@ -12,9 +12,10 @@ from pydantic import ValidationError
 from fmus import port
 from fmus.variable import Value
 from orchestrator.coupling import SCHEMES
-from orchestrator.errors import ScenarioError
+from orchestrator.errors import FmuError, ScenarioError
 from orchestrator.fmu_file import FmuFile, FmuStore
 from orchestrator.graph import Connection
+from orchestrator.safe_archive import ArchiveError, inside
 from orchestrator.scenario import (
     DEPTHS,
     BladeFracture,
@@ -79,7 +80,11 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     FmuError
         When an FMU is missing or cannot be read.
     """
-    files = {c.name: store.open(folder / c.source) for c in structure.components}
+    try:
+        files = {c.name: store.open(inside(path, folder, c.source)) for c in structure.components}
+    except (ArchiveError, FmuError) as error:
+        text = str(error).removeprefix(f"{path}: ").replace(f"{folder.resolve()}/", "")
+        raise SspError(f"{path}: {text}") from None
     marker = port.at_bearing(1, port.JOURNAL[0])
     rotors = [c for c in structure.components if marker in files[c.name].variables]
     if len(rotors) != 1:
@@ -99,7 +104,10 @@ def _train(file: FmuFile, path: Path) -> Train:
     source = file.folder / "resources" / "train.json"
     if not source.is_file():
         raise SspError(f"{path}: {file.path.name}: without train.json, so no rotor of bladeloss")
-    return Train.from_json(source.read_text(encoding="utf-8"))
+    try:
+        return Train.from_json(source.read_text(encoding="utf-8"))
+    except Exception as error:  # whatever a file of somebody else can lack
+        raise SspError(f"{path}: {file.path.name}: train.json is no train: {error!r}") from None
 
 
 def _in_order(structure: Structure, rotor: Component, count: int, path: Path) -> Iterator[Component]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.parse import unquote
-from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
-from zipfile import BadZipFile, ZipFile
 
 from fmus.variable import Value
 from orchestrator.graph import Connection
+from orchestrator.safe_archive import ArchiveError, extract, inside
+from orchestrator.safe_xml import XmlError, read_xml
 from orchestrator.ssp.structure import Component, Connector, SspError, Structure
 from orchestrator.ssp.writer import DEFINITION, NAMESPACES, OSP, RUN
 
@@ -43,15 +44,17 @@ def read_ssp(path: Path, folder: Path) -> Structure:
         nested systems, transformations, parameter mappings.
     """
     try:
-        with ZipFile(path) as archive:
-            archive.extractall(folder)
-        root = ElementTree.parse(folder / DEFINITION).getroot()
-        return _Reader(path, folder).structure(root)
+        extract(path, folder, "SSP")
+        return _Reader(path, folder).structure(read_xml(folder / DEFINITION))
     except FileNotFoundError as error:
         missing = Path(str(error.filename))
-        inside = missing.relative_to(folder) if missing.is_relative_to(folder) else None
-        raise SspError(f"{path}: no such file" + (f" in the archive: {inside}" if inside else "")) from None
-    except (BadZipFile, OSError, ElementTree.ParseError, ValueError) as error:
+        within = missing.relative_to(folder) if missing.is_relative_to(folder) else None
+        raise SspError(f"{path}: no such file" + (f" in the archive: {within}" if within else "")) from None
+    except ArchiveError as error:
+        raise SspError(str(error)) from None
+    except XmlError as error:
+        raise SspError(f"{path}: {error}") from None
+    except (OSError, ValueError) as error:
         raise SspError(f"{path}: not a readable SSP: {error}") from None
 
 
@@ -110,7 +113,7 @@ class _Reader:
             root = (
                 binding.find("ssd:ParameterValues/ssv:ParameterSet", NAMESPACES)
                 if source is None
-                else ElementTree.parse(self.folder / unquote(source)).getroot()
+                else read_xml(inside(self.path, self.folder, unquote(source)))
             )
             if root is None:
                 raise SspError(f"{self.path}: {element.get('name')}: a parameter binding without values")
@@ -120,13 +123,22 @@ class _Reader:
 
     def _values(self, root: Element) -> Iterator[tuple[str, Value]]:
         for parameter in root.findall("ssv:Parameters/ssv:Parameter", NAMESPACES):
-            for kind, convert in _CONVERSIONS.items():
+            for kind in _CONVERSIONS:
                 found = parameter.find(f"ssv:{kind}", NAMESPACES)
                 if found is not None:
-                    yield parameter.get("name", ""), convert(found.get("value", ""))
+                    yield parameter.get("name", ""), self._value(parameter, kind, found.get("value", ""))
                     break
             else:
                 raise SspError(f"{self.path}: parameter {parameter.get('name')}: type not supported")
+
+    def _value(self, parameter: Element, kind: str, text: str) -> Value:
+        try:
+            value = _CONVERSIONS[kind](text)
+        except ValueError:
+            value = math.nan
+        if value != value:
+            raise SspError(f"{self.path}: parameter {parameter.get('name')}: {text!r} is no {kind} value")
+        return value
 
     def _connections(self, system: Element, components: tuple[Component, ...]) -> Iterator[Connection]:
         inputs = {(c.name, k.name) for c in components for k in c.connectors if k.kind == "input"}
