@@ -7,9 +7,8 @@ from typing import Any
 
 from bearing_fmu.film import Depth, make_film
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.status import FilmStatus
 from fmus import port
-from fmus.failure import UnitError
+from fmus.failure import FILM_FAILED, UnitError
 from fmus.layout import Layout
 from fmus.slave import UnitSlave
 
@@ -52,13 +51,8 @@ class BearingSlave(UnitSlave):
     def start(self) -> None:
         """Evaluate the film at the inputs."""
         status = self._film.evaluate(self.inputs, self._offset, self._outputs)
-        if status != FilmStatus.OK:
-            state = ", ".join(
-                f"{v.name} = {x:.9g} {v.unit}"
-                for v, x in zip(port.BEARING_INPUTS, self.inputs, strict=True)
-                if x
-            )
-            raise UnitError(f"{FilmStatus(status).advice}; at {state}")
+        if status:
+            raise UnitError(f"{FILM_FAILED}: {self._film.failure(status, self.inputs, self._offset)}")
 
     def advance(self, time: float, step: float) -> None:
         """Evaluate the film at the inputs, which are those at the end of the step."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.aligned import aligned_film
 from bearing_fmu.evaluate import WORK, evaluate_v1, evaluate_v2, evaluate_v3
+from bearing_fmu.film_state import state_words
 from bearing_fmu.greenwood_tripp import slice_table
 from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
@@ -133,6 +134,16 @@ class Film:
         """
         return self._kernel(inputs, offset, out, *self._data)
 
+    def failure(self, status: int, inputs: Floats, offset: Floats) -> FilmFailure:
+        """Return the error that belongs to a failed `evaluate`: status, advice and the relative state."""
+        relative = inputs[:8] - inputs[8:16]
+        relative[:4] -= offset
+        speed = float(inputs[16])
+        words = state_words(
+            self.parameters, relative[:4], relative[4:], speed, tilted=self.depth is Depth.V1
+        )
+        return FilmFailure(FilmStatus(status), np.append(relative, speed), words)
+
     def respond(self, q: Floats, v: Floats, speed: float) -> BearingResponse:
         """Response at a relative state of journal and bore.
 
@@ -155,7 +166,7 @@ class Film:
         out = np.empty(OUTPUTS)
         status = FilmStatus(self.evaluate(inputs, np.zeros(4), out))
         if status is not FilmStatus.OK:
-            raise FilmFailure(status, np.concatenate((inputs[:8], inputs[16:])))
+            raise self.failure(status, inputs, np.zeros(4))
         gap = out[OUT_GAP:]
         return BearingResponse(
             wrench=out[:OUT_F0].copy(),

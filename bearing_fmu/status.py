@@ -60,9 +60,16 @@ class FilmFailure(ArithmeticError):
         Why.
     state : ndarray, shape (9,)
         Relative position (4), relative velocity (4), speed.
+
+    Parameters
+    ----------
+    status, state : FilmStatus, ndarray
+        As above.
+    words : str
+        The state for people, see `bearing_fmu.film_state`.
     """
 
-    def __init__(self, status: FilmStatus, state: NDArray[np.float64]) -> None:
+    def __init__(self, status: FilmStatus, state: NDArray[np.float64], words: str) -> None:
         self.status = status
         self.state = state
-        super().__init__(f"{status.name}: {status.advice} (q, v, speed = {state.tolist()})")
+        super().__init__(f"{status.name}: {status.advice}; at {words}")

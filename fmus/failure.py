@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+FILM_FAILED = "film failed"
+"""Begins the reason of a bearing that refuses a step because its film has no solution there."""
+
 
 class UnitError(Exception):
     """A parameter, an input or a state with which the unit cannot go on."""

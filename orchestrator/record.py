@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
 from orchestrator.equilibrium import Start
+from orchestrator.exit_status import of_outcome
 from orchestrator.outcome import Outcome
 from orchestrator.recorder import EXTREMES, Recorder
 from orchestrator.scenario import Scenario
@@ -175,8 +176,7 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
         **({} if scenario.tolerance is None else {"tolerance": scenario.tolerance}),
         "end_time": scenario.end,
         "reduction": scenario.reduction,
-        "status": outcome.value,
-        "message": message,
+        **outcome_attributes(outcome, message),
         "scenario": scenario_toml(scenario),
         "versions": "; ".join(
             [f"python {platform.python_version()}"]
@@ -189,6 +189,16 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
         attributes["fracture_time"] = scenario.event.time
         attributes["fracture_wheel"] = scenario.event.wheel
     return attributes
+
+
+def outcome_attributes(outcome: Outcome, message: str) -> dict[str, Any]:
+    """Attributes of the record that say how a run ended."""
+    return {
+        "status": outcome.value,
+        "exit_status": of_outcome(outcome),
+        "message": message,
+        "advice": outcome.advice,
+    }
 
 
 def _time(times: Array) -> dict[str, Any]:

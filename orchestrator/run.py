@@ -13,10 +13,18 @@ from orchestrator.outcome import Outcome
 from orchestrator.recorder import Recorder
 from orchestrator.stepping import NotFinite, StepCounts, StepFailure, Stepper
 from orchestrator.system import System
-from orchestrator.unit import Status, UnitError
+from orchestrator.unit import UnitError
 
 _WHOLE = 1e-9
 """Share of a step by which the end time may miss a whole number of steps and still count as one."""
+
+_LEAVES_UNITS_USABLE = (
+    Outcome.STEP_REFUSED,
+    Outcome.FILM_FAILED,
+    Outcome.TOLERANCE_MISSED,
+    Outcome.NOT_FINITE,
+)
+"""Ends after which the state that was reached can still be asked for, and is recorded."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +79,8 @@ class RunEnd:
         Its name.
     message : str
         Empty, or what failed and when.
+    unit : str
+        Empty, or name of the unit that failed, or of the bearing where the coupling did.
     time : float
         Simulated time reached in s.
     counts : StepCounts
@@ -81,6 +91,7 @@ class RunEnd:
 
     outcome: Outcome
     message: str
+    unit: str
     time: float
     counts: StepCounts
     wall_time: float
@@ -129,7 +140,7 @@ def run(
         Also when a unit refuses a step, a tolerance is missed, the motion diverges, or the user interrupts.
     """
     begin, recording = perf_counter(), 0.0
-    outcome, message = Outcome.FINISHED, ""
+    outcome, message, unit = Outcome.FINISHED, "", ""
     time = 0.0
 
     def on_step(start: float, end: float, advance: Advance) -> None:
@@ -165,12 +176,12 @@ def run(
             on_time(time)
     except StepFailure as error:
         outcome = Outcome.NOT_FINITE if isinstance(error, NotFinite) else Outcome.TOLERANCE_MISSED
-        message = f"at t = {time:.9g} s: {error}"
+        message, unit = f"at t = {time:.9g} s: {error}", error.bearing
     except UnitError as error:
-        outcome = Outcome.STEP_REFUSED if error.status is Status.DISCARD else Outcome.UNIT_FAILED
-        message = f"at t = {time:.9g} s: {error}"
+        outcome = error.outcome
+        message, unit = f"at t = {time:.9g} s: {error}", error.unit
     except KeyboardInterrupt:
         outcome, message = Outcome.INTERRUPTED, f"at t = {time:.9g} s"
-    if outcome in (Outcome.STEP_REFUSED, Outcome.TOLERANCE_MISSED, Outcome.NOT_FINITE):
+    if outcome in _LEAVES_UNITS_USABLE:
         recorder.close(time)
-    return RunEnd(outcome, message, time, stepper.counts, perf_counter() - begin, recording)
+    return RunEnd(outcome, message, unit, time, stepper.counts, perf_counter() - begin, recording)

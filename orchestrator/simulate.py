@@ -15,10 +15,11 @@ from orchestrator.equilibrium import Start, begin, find_start
 from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import evaluate
 from orchestrator.fmu_file import FmuStore
+from orchestrator.journal_state import with_state
 from orchestrator.ledger import Ledger
 from orchestrator.ledger_summary import with_ledger
 from orchestrator.outcome import Outcome
-from orchestrator.record import empty_record, make_record
+from orchestrator.record import empty_record, make_record, outcome_attributes
 from orchestrator.recorder import Recorder
 from orchestrator.result import Execution, Progress, Result, Stage, Stopwatch, Timing
 from orchestrator.run import Course, run
@@ -135,9 +136,11 @@ def carry_out(
             resume.restore_units(system)
             start = resume.start()
     except (EquilibriumError, UnitError) as error:
-        record = empty_record(scenario, train, Outcome.NO_EQUILIBRIUM, str(error))
+        outcome = error.outcome if isinstance(error, UnitError) else Outcome.NO_EQUILIBRIUM
+        message = f"at the start: {error}"
+        record = empty_record(scenario, train, outcome, message)
         timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)
-        return Result(record, Outcome.NO_EQUILIBRIUM, str(error), timing, 0, 0)
+        return Result(record, outcome, message, timing, 0, 0)
     equilibrium = clock.lap()
     announce(Stage.RUN, 0.0)
     course = _course(scenario)
@@ -170,11 +173,11 @@ def carry_out(
     fmi = rotor_exchange + film_exchange
     rest = end.wall_time - film - rotor - fmi - end.record_time
     provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
-    record = make_record(recorder, start, scenario, train, end.outcome, end.message, provenance)
-    outcome, message = end.outcome, end.message
+    outcome, message = end.outcome, with_state(end, system, start.offsets)
+    record = make_record(recorder, start, scenario, train, outcome, message, provenance)
     if outcome.ok and (message := unresolved(record)):
         outcome = Outcome.UNRESOLVED
-        record = record.assign_attrs(status=outcome.value, message=message)
+        record = record.assign_attrs(outcome_attributes(outcome, message))
     record = record.assign_attrs(end.counts.attributes(system.bearing_group.evaluations))
     if ledger is not None and not system.rotor.failed:
         record = with_ledger(record, ledger.balance())

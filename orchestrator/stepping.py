@@ -12,9 +12,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from orchestrator.coupling import Advance, Coupling, NotConverged
 from orchestrator.errors import OrchestratorError
-from orchestrator.system import System
+from orchestrator.system import Array, System
 from orchestrator.unit import Status, UnitError
 
 DEEPEST = 10
@@ -70,7 +73,17 @@ class StepCounts:
 
 
 class StepFailure(OrchestratorError):
-    """A step that cannot be carried out even at the shortest size."""
+    """A step that cannot be carried out even at the shortest size.
+
+    Attributes
+    ----------
+    bearing : str
+        Where it fails the most; empty where that is not known.
+    """
+
+    def __init__(self, text: str, bearing: str = "") -> None:
+        self.bearing = bearing
+        super().__init__(f"{bearing}: {text}" if bearing else text)
 
 
 class ToleranceMissed(StepFailure):
@@ -150,7 +163,7 @@ class Stepper:
         try:
             advance = self.scheme.advance(self._system, time, step)
             size = self._system.relative(advance.defect)
-            problem = self._problem(size, step)
+            problem = self._problem(advance.defect, size, step)
         except NotConverged as error:
             problem = ToleranceMissed(f"{error}, with a step of {step:.3g} s")
         except UnitError as error:
@@ -174,14 +187,24 @@ class Stepper:
             return advance.iterations <= EASY
         return self._tolerance is None or size <= CALM * self._tolerance
 
-    def _problem(self, size: float, step: float) -> StepFailure | None:
-        if not (math.isfinite(size) and math.isfinite(self._system.journals.sum())):
-            return NotFinite("a journal's motion is not finite after the step")
+    def _problem(self, defect: Array, size: float, step: float) -> StepFailure | None:
+        system = self._system
+        if not (math.isfinite(size) and math.isfinite(system.journals.sum())):
+            motion = np.column_stack([system.journals, system.forces])
+            return NotFinite(
+                "the motion of the journal is not finite after the step",
+                self._name(np.count_nonzero(~np.isfinite(motion), axis=1)),
+            )
         if self._tolerance is not None and size > self._tolerance:
             return ToleranceMissed(
-                f"relative defect {size:.3g} with a step of {step:.3g} s, allowed is {self._tolerance:.3g}"
+                f"relative defect {size:.3g} with a step of {step:.3g} s, allowed is {self._tolerance:.3g}",
+                self._name(np.max(np.abs(defect) / system.scale(), axis=1)),
             )
         return None
+
+    def _name(self, badness: ArrayLike) -> str:
+        """Name of the bearing of the largest value."""
+        return self._system.bearings[int(np.argmax(badness))].name
 
     def _count(self, advance: Advance, step: float, size: float) -> None:
         counts = self.counts

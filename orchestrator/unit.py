@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Sequence
-from enum import IntEnum
 from typing import Any
 
 import fmpy
@@ -25,41 +24,16 @@ from fmpy.fmi2 import (
 )
 from numpy.typing import NDArray
 
-from orchestrator.errors import FmuError, OrchestratorError, PortError
+from orchestrator.errors import FmuError, PortError
 from orchestrator.fmu_file import FmuFile
+from orchestrator.unit_error import Status, UnitError
+
+__all__ = ["Block", "Status", "Unit", "UnitError"]
 
 _KEPT_MESSAGES = 50
 _VALUE_CONVERSION: dict[str, Callable[[Any], Any]] = {
     "Real": float, "Integer": int, "Boolean": bool, "String": str,
 }  # fmt: skip
-
-
-class Status(IntEnum):
-    """fmi2Status."""
-
-    OK = 0
-    WARNING = 1
-    DISCARD = 2
-    ERROR = 3
-    FATAL = 4
-    PENDING = 5
-
-
-class UnitError(OrchestratorError):
-    """A call to an FMU that did not end with OK.
-
-    Attributes
-    ----------
-    unit : str
-        Name of the instance.
-    status : Status
-        What it returned; `Status.DISCARD` leaves a step that may be tried again.
-    """
-
-    def __init__(self, unit: str, call: str, status: Status, reason: str) -> None:
-        self.unit = unit
-        self.status = status
-        super().__init__(f"{unit}: {call} returned {status.name.lower()}" + (f": {reason}" if reason else ""))
 
 
 class Block:

@@ -13,7 +13,13 @@ PHYSICS = ("rotor_fmu", "bearing_fmu")
 # Data types, and the linear analysis of the shaft: eigenvalues have no time for a unit to step in.
 OF_PHYSICS_FOR_THE_MASTER = {"rotor_fmu.train", "rotor_fmu.train_file", "rotor_fmu.linear"}
 OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.variable"}
-OF_FMUS_FOR_THE_MASTER = {"fmus.port", "fmus.variable", "fmus.build", "fmus.archive"}
+OF_FMUS_FOR_THE_MASTER = {
+    "fmus.port",
+    "fmus.variable",
+    "fmus.build",
+    "fmus.archive",
+    "fmus.failure",
+}
 
 
 def modules(package):

@@ -9,6 +9,8 @@ from bearing_fmu.film import make_film
 from bearing_fmu.parameters import BearingParameters
 from fmus import port
 from fmus.build import DEPTHS, bearing_recipe
+from fmus.failure import FILM_FAILED
+from tests.faults import fault
 
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
 INPUTS = [v.name for v in port.BEARING_INPUTS]
@@ -80,12 +82,21 @@ def test_a_bad_parameter_is_a_discard_with_the_reason(bearing, name, value):
     assert name.rpartition(".")[2] in bearing.said
 
 
+@fault(
+    "film",
+    "a journal far outside its bore",
+    "fmi2Discard; `film failed`, eccentricity ratio, tilts, least gap, advice; outputs as before",
+    broken=("bearing_fmu/facade.py", "        if status:", "        if False:"),
+)
 def test_a_journal_far_outside_is_a_discard_with_advice_and_the_state(bearing):
     bearing.start()
     before = bearing.get(*OUTPUTS)
     bearing.set({"journal.x": 0.01})
     assert not bearing.step(0.0, 1e-4)
-    assert "smaller step" in bearing.said and "journal.x = 0.01 m" in bearing.said
+    clearance = bearing.get("clearance")
+    assert "smaller step" in bearing.said and FILM_FAILED in bearing.said
+    assert f"eccentricity ratio {0.01 / clearance:.4g}, tilts 0 and 0 urad" in bearing.said
+    assert f"least gap {1e6 * (clearance - 0.01):.4g} um of a clearance of" in bearing.said
     assert bearing.get(*OUTPUTS) == before
     bearing.set({"journal.x": 0.0})
     assert bearing.step(0.0, 1e-4)

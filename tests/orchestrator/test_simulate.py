@@ -12,6 +12,7 @@ from orchestrator.record_files import read_record, write_record
 from orchestrator.scenario_file import load_scenario
 from orchestrator.simulate import Stage, simulate
 from orchestrator.stepping import DEEPEST
+from tests.faults import fault
 from tests.orchestrator.toy_train import GRADE, SPEED, STIFFNESS, WHEEL_MASS, toy_fmu_folder, toy_scenario
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -101,18 +102,30 @@ def test_depths_mix(fmus, tmp_path):
     assert record.attrs["fmus"].count(".fmu") == 3
 
 
-def test_a_refused_step_ends_the_run_with_its_reason_and_a_partial_record(fmus, tmp_path):
+@fault(
+    "film",
+    "a film that fails for good at one bearing",
+    "film-failed, exit 11; bearing, time, eccentricity ratio, tilts, least gap; record up to there",
+    broken=("orchestrator/unit_error.py", "elif FILM_FAILED in reason:", "elif False:"),
+)
+def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, tmp_path):
     result = simulate(toy_scenario(tmp_path, event={**BLADE, "unbalance": 1e3}), fmus)
-    assert result.outcome is Outcome.STEP_REFUSED
+    assert result.outcome is Outcome.FILM_FAILED
     assert not result.outcome.ok
-    assert "front: fmi2DoStep returned discard: the journal has left its bore" in result.message
+    assert "front: fmi2DoStep returned discard: film failed: the journal has left its bore" in result.message
+    last = result.record["eccentricity"].sel(bearing="front").values[-1]
+    assert f"last state of front: eccentricity ratio {last:.4g}, tilts " in result.message
+    assert f"least gap {1e6 * result.record['least_gap'].values[-1, 0]:.4g} um" in result.message
     times = result.record["time"].values
     assert 0.0205 <= times[-1] < 0.05
     assert f"at t = {times[-1]:.9g} s" in result.message
     assert result.counts.discarded >= DEEPEST
     assert result.counts.shortest == pytest.approx(1e-3 / 2**DEEPEST)
     assert times[-2] == pytest.approx(1e-3 * (len(times) - 2))
-    assert result.record.attrs["status"] == "step-refused"
+    attributes = result.record.attrs
+    assert (attributes["status"], attributes["exit_status"]) == ("film-failed", 11)
+    assert attributes["message"] == result.message
+    assert attributes["advice"] == Outcome.FILM_FAILED.advice
     assert np.isfinite(result.record["force"]).all()
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from port_unit import PortUnit
 
 from fmus import port
+from fmus.failure import FILM_FAILED
 
 _OWN = (
     port.Variable("spring.stiffness", "parameter", start=2e7),
@@ -52,5 +53,5 @@ class SpringDamper(PortUnit):
             return self.refuse("too long a step")
         self.solve()
         if not self.values["eccentricity"] < 1.0:
-            return self.refuse("the journal has left its bore")
+            return self.refuse(f"{FILM_FAILED}: the journal has left its bore")
         return True
