@@ -11,6 +11,7 @@ from bearing_fmu.film import FilmFailure, FilmStatus, make_film
 from bearing_fmu.parameters import BearingParameters
 from fmus import port
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond
+from tests.faults import fault
 
 DEPTHS = ["v1", "v2", "v3"]
 
@@ -40,6 +41,12 @@ def test_layout_is_the_ports():
     ]
 
 
+@fault(
+    "film",
+    "an input of a bearing is not a finite number",
+    "status NOT_FINITE at every depth, outputs untouched",
+    broken=("bearing_fmu/outputs.py", "        return NOT_FINITE\n", "        pass\n"),
+)
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_not_finite(depth, bad):
@@ -53,6 +60,12 @@ def test_not_finite(depth, bad):
     assert film.evaluate(port_inputs(), offset, out) == FilmStatus.NOT_FINITE
 
 
+@fault(
+    "film",
+    "the journal overlaps the bore beyond every physical state",
+    "status TOO_DEEP at every depth, outputs untouched",
+    broken=("bearing_fmu/parameters.py", "return -max(50.0", "return -4.0 * max(50.0"),
+)
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("q", [(0.0, -1.3, 0.0, 0.0), (30.0, 0.0, 0.0, 0.0), (1e300, 0.0, 0.0, 0.0)])
 def test_too_deep(depth, q):
@@ -68,6 +81,12 @@ def test_too_deep_at_one_edge():
     assert make_film("v2", TURBINE).evaluate(port_inputs(q), np.zeros(4), out) == FilmStatus.OK
 
 
+@fault(
+    "film",
+    "the journal touches a bore without contact model",
+    "status GAP_CLOSED at every depth; the state, and to take a smaller step",
+    broken=("bearing_fmu/parameters.py", "            return 0.0\n", "            return -self.clearance\n"),
+)
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_closed_gap_without_contact(depth):
     film = make_film(depth, plain(0.8))
@@ -77,6 +96,12 @@ def test_closed_gap_without_contact(depth):
     assert failure.value.state.shape == (9,)
 
 
+@fault(
+    "film",
+    "a film whose forces overflow",
+    "status NO_SOLUTION at every depth, outputs untouched",
+    broken=("bearing_fmu/outputs.py", "        return NO_SOLUTION\n", "        pass\n"),
+)
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_overflow_is_no_solution(depth):
     film, out = make_film(depth, TURBINE), np.full(52, 7.0)
@@ -152,6 +177,12 @@ def test_standstill_without_motion_is_forceless(depth):
     assert response.sommerfeld == 0.0
 
 
+@fault(
+    "film",
+    "parameters of a bearing out of range",
+    "ValueError with key, value and the range",
+    broken=("bearing_fmu/parameters.py", "            if not valid:\n", "            if False:\n"),
+)
 @pytest.mark.parametrize(
     "key, value, allowed",
     [

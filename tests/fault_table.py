@@ -1,0 +1,146 @@
+"""The table of faults in ``README.md``, written from the marks of the tests: ``python -m tests.fault_table``.
+
+With ``--check`` nothing is written, and the exit status is 1 where the page does not say what the marks say.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.faults import AREAS
+
+ROOT = Path(__file__).parents[1]
+PAGE = Path(__file__).with_name("README.md")
+BEGIN, END = "<!-- faults -->", "<!-- /faults -->"
+
+_TITLES = {
+    "input": "Input: scenario, train, command line",
+    "archive": "Foreign archives: FMU and SSP",
+    "film": "Films",
+    "coupling": "Coupling",
+    "unit": "Units: the FMUs and what they answer",
+    "machine": "The machine: disk, memory, folders",
+    "process": "Processes: signals, workers, resuming",
+}
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A fault and the tests that prove what happens in it.
+
+    Attributes
+    ----------
+    area, case, outcome : str
+        As in `tests.faults.fault`.
+    broken : tuple of str
+        File, text, and what takes the guard away in its place.
+    tests : tuple of str
+        Node ids of pytest that carry the mark.
+    """
+
+    area: str
+    case: str
+    outcome: str
+    broken: tuple[str, str, str]
+    tests: tuple[str, ...]
+
+    @property
+    def test(self) -> str:
+        """Node id without the parameters, or with them where there is but one set."""
+        return self.tests[0] if len(self.tests) == 1 else self.tests[0].partition("[")[0]
+
+
+class _Collector:
+    """The plugin: keeps the marks of all collected tests."""
+
+    def __init__(self) -> None:
+        self.marks: dict[tuple[str, str, str, tuple[str, str, str], str], list[str]] = {}
+
+    def pytest_collection_finish(self, session: pytest.Session) -> None:
+        """Group the items by what their marks say and by the function."""
+        for item in session.items:
+            for mark in item.iter_markers("fault"):
+                said = mark.kwargs
+                function = item.nodeid.partition("[")[0]
+                key = said["area"], said["case"], said["outcome"], tuple(said["broken"]), function
+                self.marks.setdefault(key, []).append(item.nodeid)
+
+    def faults(self) -> list[Fault]:
+        return [Fault(*key[:4], tuple(tests)) for key, tests in self.marks.items()]
+
+
+def collect(root: Path = ROOT) -> list[Fault]:
+    """Return the faults that the tests below `root` prove, in the order of their collection.
+
+    Raises
+    ------
+    RuntimeError
+        If pytest cannot collect the tests.
+    """
+    collector = _Collector()
+    arguments = ["--collect-only", "-qq", "--no-header", f"--rootdir={root}", str(root / "tests")]
+    stdout = os.dup(1)
+    try:  # pytest lists every test
+        with Path(os.devnull).open("w") as nothing:
+            os.dup2(nothing.fileno(), 1)
+            status = pytest.main(["-p", "no:cacheprovider", *arguments], plugins=[collector])
+    finally:
+        sys.stdout.flush()
+        os.dup2(stdout, 1)
+        os.close(stdout)
+    if status != pytest.ExitCode.OK:
+        raise RuntimeError(f"pytest could not collect the tests: {status!r}; see pytest --collect-only")
+    return collector.faults()
+
+
+def table(faults: Sequence[Fault]) -> str:
+    """Return the sections of the page: one for each area, a row for each fault."""
+    lines = [f"{len(faults)} faults, {sum(len(f.tests) for f in faults)} tests.", ""]
+    for area in AREAS:
+        rows = sorted((f for f in faults if f.area == area), key=lambda f: (f.test.partition("[")[0], f.case))
+        if not rows:
+            continue
+        lines += [f"### {_TITLES[area]}", "", "| fault | what happens | test |", "|---|---|---|"]
+        for fault in rows:
+            file, _, name = fault.test.partition("::")
+            link = f"[{_cell(name.partition('[')[0])}]({file.removeprefix('tests/')})"
+            lines.append(f"| {_cell(fault.case)} | {_cell(fault.outcome)} | {link} |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|").replace("_", "\\_")
+
+
+def page(faults: Sequence[Fault], old: str) -> str:
+    """Return the page `old` with the table of these faults between its markers."""
+    before, begin, rest = old.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not (begin and end):
+        raise ValueError(f"{PAGE.name}: the markers {BEGIN} and {END} are missing")
+    return f"{before}{BEGIN}\n{table(faults)}{END}{after}"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Write or check the page; return the exit status."""
+    old = PAGE.read_text(encoding="utf-8")
+    new = page(collect(), old)
+    if "--check" not in arguments:
+        PAGE.write_text(new, encoding="utf-8")
+    elif new != old:
+        print(
+            f"{PAGE.name} does not say what the marks say: run python -m tests.fault_table", file=sys.stderr
+        )
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

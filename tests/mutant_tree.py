@@ -1,0 +1,181 @@
+"""A copy of the working tree in which one guard after the other is taken away; see `tests.mutation`."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+import os
+import re
+import shutil
+import signal
+import sys
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import astuple
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.fault_table import ROOT, Fault, collect
+
+_COPIED = ("bearing_fmu", "rotor_fmu", "fmus", "orchestrator", "tests", "pyproject.toml", "README.md")
+
+
+class NotOnce(ValueError):
+    """The text that a mutant replaces is not there exactly once."""
+
+
+class Outcomes:
+    """A plugin of pytest: keeps how each test ended."""
+
+    def __init__(
+        self, passed: set[str] | None = None, failed: dict[str, tuple[str, str]] | None = None
+    ) -> None:
+        self.passed = passed or set()
+        self.failed = failed or {}  # by node id: phase or type of the exception, words
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note what a phase of a test came to."""
+        if report.failed:
+            crash = getattr(report.longrepr, "reprcrash", None)
+            words = crash.message if crash else str(report.longrepr)
+            where = words.partition(":")[0] if report.when == "call" else f"its {report.when}"
+            self.failed[report.nodeid] = where.strip(), " ".join(words.split())
+        elif report.passed and report.when == "call":
+            self.passed.add(report.nodeid)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """Note what could not be collected."""
+        if report.failed:
+            self.failed[report.nodeid] = "its collection", " ".join(str(report.longrepr).split())[-200:]
+
+
+class Tree:
+    """A copy of the working tree in which mutants live.
+
+    Parameters
+    ----------
+    folder : Path
+        Where it is made; it must exist.
+    limit : float
+        Longest time for the tests of a mutant [s].
+    """
+
+    def __init__(self, folder: Path, limit: float) -> None:
+        self.root, self.limit = folder / "tree", limit
+        self._base, self._log = folder / "base", folder / "log"
+        self._kernels, self._stamp = folder / "kernels", ""
+        self.root.mkdir()
+        for name in _COPIED:
+            source = ROOT / name
+            if source.is_dir():
+                shutil.copytree(source, self.root / name, ignore=shutil.ignore_patterns("*.fmu", "*.ssp"))
+            else:
+                shutil.copy2(source, self.root / name)
+
+    def faults(self) -> list[Fault]:
+        """Return the marks of the tests."""
+        return [Fault(*fields) for fields in self._in_child(_collect)]
+
+    def baseline(self, faults: Iterable[Fault]) -> Outcomes:
+        """Run the tests with all guards in place; the kernels are compiled after that."""
+        tests = sorted({test for fault in faults for test in fault.tests})
+        outcomes = Outcomes(*self._in_child(_run_tests, tests, "", False, factor=len(tests)))
+        shutil.copytree(self.root / "bearing_fmu" / "__pycache__", self._kernels, dirs_exist_ok=True)
+        self._stamp = self._in_child(_stamp)
+        return outcomes
+
+    def without_guard(self, fault: Fault) -> Outcomes:
+        """Run the tests of a fault without its guard, up to the first that fails.
+
+        Raises
+        ------
+        NotOnce
+            If the text to replace is not there exactly once.
+        TimeoutError
+            If the tests do not end within the limit.
+        """
+        name, old, new = fault.broken
+        path = self.root / name
+        text = path.read_text(encoding="utf-8") if path.is_file() else ""
+        if text.count(old) != 1:
+            raise NotOnce(f"{name}: {old!r} occurs {text.count(old)} times, must be once")
+        path.rename(path.with_suffix(".whole"))  # keeps its time, which tells Python that its bytecode holds
+        try:
+            path.write_text(text.replace(old, new), encoding="utf-8")
+            stamp = "" if name in kernel_modules(self.root) else self._stamp
+            outcomes = Outcomes(*self._in_child(_run_tests, fault.tests, stamp, True))
+        finally:
+            path.with_suffix(".whole").replace(path)
+            if name.startswith("bearing_fmu/"):
+                shutil.rmtree(self.root / "bearing_fmu" / "__pycache__")
+                shutil.copytree(self._kernels, self.root / "bearing_fmu" / "__pycache__")
+        return outcomes
+
+    def _in_child(self, work: Callable[..., Any], *arguments: Any, factor: float = 1.0) -> Any:
+        """Return what `work` returns, plain data, in a fork of this process that lives in the tree."""
+        context = multiprocessing.get_context("fork")
+        here, there = context.Pipe(duplex=False)
+        target = (there, self.root, self._base, self._log, work, arguments)
+        process = context.Process(target=_child, args=target)
+        process.start()
+        there.close()
+        try:
+            if not here.poll(self.limit * factor):
+                raise TimeoutError(f"no end after {self.limit * factor:g} s")
+            return here.recv()
+        except EOFError:
+            log = self._log.read_text(errors="replace")[-2000:]
+            raise RuntimeError(f"the process of the tests died\n{log}") from None
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid or 0, signal.SIGKILL)
+            process.join()
+
+
+def _child(to: Connection, root: Path, base: Path, log: Path, work: Callable[..., Any], given: Any) -> None:
+    """Run `work` as if Python had been started in the tree."""
+    os.setsid()  # so that it can be ended with all that it starts
+    with log.open("w") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+    os.chdir(root)
+    os.environ |= {"PYTHONPATH": str(root), "TMPDIR": str(root.parent), "PYTHONDONTWRITEBYTECODE": "1"}
+    tempfile.tempdir = None
+    sys.dont_write_bytecode = True  # two mutants of a second and a size would share theirs
+    own = (Path.cwd(), ROOT)
+    sys.path[:] = [str(root), *(p for p in sys.path if Path(p or ".").resolve() not in own)]
+    for name in [n for n in sys.modules if n.partition(".")[0] == "tests"]:
+        del sys.modules[name]
+    os.environ["PYTEST_ADDOPTS"] = f"--basetemp={base} -p no:cacheprovider"
+    to.send(work(*given))
+
+
+def _collect() -> list[tuple[Any, ...]]:
+    return [astuple(fault) for fault in collect(Path.cwd())]
+
+
+def _stamp() -> str:
+    """Digest by which the compiled kernels know their sources."""
+    return str(importlib.import_module("bearing_fmu.compiled")._SOURCES)
+
+
+def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
+    if stamp:  # no kernel changed: take those that are there
+        importlib.import_module("bearing_fmu.compiled")._SOURCES = stamp  # type: ignore[attr-defined]
+    outcomes = Outcomes()
+    pytest.main(["-x", *tests] if stop else [*tests], plugins=[outcomes])
+    return outcomes.passed, outcomes.failed
+
+
+def kernel_modules(root: Path) -> set[str]:
+    """Modules with kernels, and those that they take constants from."""
+    found = set()
+    for path in (root / "bearing_fmu").glob("*.py"):
+        imported = re.findall(r"^from bearing_fmu\.(\w+) import", path.read_text(), flags=re.MULTILINE)
+        if "compiled" in imported:
+            found |= {path.stem, *imported}
+    return {f"bearing_fmu/{name}.py" for name in found}

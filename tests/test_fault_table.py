@@ -1,0 +1,29 @@
+"""The page of the tests says what their marks say."""
+
+import subprocess
+import sys
+
+from tests.fault_table import BEGIN, END, ROOT, Fault, page, table
+
+
+def test_the_page_is_what_the_marks_say():
+    """Of all tests, whichever are selected here: collected in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, "-m", "tests.fault_table", "--check"], cwd=ROOT, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_row_for_each_fault_below_its_area():
+    broken = ("a.py", "if x:", "if False:")
+    faults = [
+        Fault("unit", "it hangs | twice", "outcome unit_hung", broken, ("tests/a/test_b.py::test_c[1]",)),
+        Fault(
+            "input", "no file", "exit 2", broken, ("tests/test_d.py::test_e[1]", "tests/test_d.py::test_e[2]")
+        ),
+    ]
+    lines = table(faults).splitlines()
+    assert lines[0] == "2 faults, 3 tests."
+    row = "| it hangs \\| twice | outcome unit\\_hung | [test\\_c](a/test_b.py) |"
+    assert lines.index("| no file | exit 2 | [test\\_e](test_d.py) |") < lines.index(row)
+    assert page(faults, f"before\n{BEGIN}\nold\n{END}\nafter").startswith("before\n")
