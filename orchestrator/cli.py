@@ -15,6 +15,7 @@ import typer
 
 from orchestrator import cli_compare, cli_linear, cli_resume, cli_ssp
 from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
+from orchestrator.exit_status import status_lines
 
 app = typer.Typer(
     name="bladeloss",
@@ -38,7 +39,7 @@ RUN_HELP = (
     "Options replace values of the scenario; what is not given stays as there. The reference scenario has "
     "depth v1, coupling linear-implicit, reduction irs, step 1e-4 s."
 )
-RUN_EPILOG = """\
+RUN_EPILOG = f"""\
 [bold]Examples[/bold]
 
   bladeloss run                                the reference scenario
@@ -50,12 +51,7 @@ RUN_EPILOG = """\
 
 [bold]Exit status[/bold]
 
-  0    finished, valid             4    a step was refused
-  1    internal or file error      5    a unit failed
-  2    wrong input, no run         6    the motion grew without bound
-  3    no static equilibrium       9    the tolerance was missed
-  10   the coupling was not resolved: finished, but its numbers mean nothing
-  130  interrupted
+{status_lines()}
 
   From 3 on, what was simulated lies in <DIR>-partial, with the reason
   in PARTIAL.txt.

@@ -33,3 +33,20 @@ OTHER_OUTCOME = 7
 def of_outcome(outcome: Outcome) -> int:
     """Exit status for the outcome of a run."""
     return STATUS.get(outcome, OTHER_OUTCOME)
+
+
+def outcome_table() -> str:
+    """Return all outcomes as a table in Markdown: value, exit status, advice."""
+    rows = [f"| `{outcome.value}` | {of_outcome(outcome)} | {outcome.advice} |" for outcome in Outcome]
+    return "\n".join(["| outcome | exit status | what it means, and what helps |", "|---|---|---|", *rows])
+
+
+def status_lines() -> str:
+    """Return all exit statuses in two columns, for the help of a command."""
+    others = {1: "internal or file error", INPUT_ERROR: "wrong input, no run", PROCESS_DIED: "process died"}
+    words = others | {status: outcome.value for outcome, status in STATUS.items()}
+    cells = [f"{status:<3}  {words[status]:<22}" for status in sorted(words)]
+    half = (len(cells) + 1) // 2
+    return "\n".join(
+        f"  {left}  {right}".rstrip() for left, right in zip(cells[:half], [*cells[half:], ""], strict=False)
+    )

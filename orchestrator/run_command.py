@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
+from rich.text import Text
 
 from orchestrator import exit_status
 from orchestrator.certify import at_half_step, certify
@@ -180,7 +181,11 @@ def conclude(
     status = exit_status.of_outcome(result.outcome)
     if not result.outcome.ok:
         errors.print(
-            f"[red]error:[/red] not finished: {summary.outcome} (exit status {status})", highlight=False
+            Text.assemble(
+                ("error:", "red"),
+                f" {summary.outcome} (exit status {status}): {summary.message} {summary.advice}",
+            ),
+            soft_wrap=True,
         )
     return status
 

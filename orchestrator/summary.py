@@ -11,6 +11,7 @@ import sys
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from orchestrator.exit_status import of_outcome
 from orchestrator.ledger_summary import LedgerSummary, ledger_of
 from orchestrator.statistics import (
     BearingStatistics,
@@ -53,6 +54,8 @@ class RunSummary:
         Of the scenario.
     outcome, advice, message : str
         How the run ended, what helps, what failed.
+    exit_status : int
+        Of the command.
     finished : bool
         Whether the run is complete and valid.
     simulated : float
@@ -95,6 +98,7 @@ class RunSummary:
     outcome: str
     advice: str
     message: str
+    exit_status: int
     finished: bool
     simulated: float
     steps: int
@@ -184,6 +188,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         outcome=str(result.outcome.value),
         advice=result.outcome.advice,
         message=result.message,
+        exit_status=of_outcome(result.outcome),
         finished=result.outcome.ok,
         simulated=float(record["time"].values[-1]) if samples else 0.0,
         steps=result.steps,

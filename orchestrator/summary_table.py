@@ -106,8 +106,9 @@ def _facts(summary: RunSummary) -> Table:
     facts = Table.grid(padding=(0, 2))
     facts.add_column(style="dim", no_wrap=True)
     facts.add_column()
+    outcome = summary.outcome + ("" if summary.finished else f" (exit status {summary.exit_status})")
     rows: list[tuple[str, str | Text]] = [
-        ("outcome", Text(summary.outcome, style="green" if summary.finished else "bold red")),
+        ("outcome", Text(outcome, style="green" if summary.finished else "bold red")),
         ("simulated", _steps_text(summary)),
         ("depth", summary.depth_text()),
         ("coupling", summary.coupling),
