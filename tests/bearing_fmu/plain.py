@@ -1,0 +1,70 @@
+"""The kernels of the bearing run as the Python they are written in: ``python -m tests.bearing_fmu.plain``.
+
+numba compiles with sums reordered and products fused, and the vector operations are written in LLVM's
+language.  Here nothing is compiled, and the vector operations are numpy, so that the two must agree to
+rounding; and a debugger, or a measurement of coverage, sees every line.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from bearing_fmu import compiled, vector
+
+LANES = vector.LANES
+
+
+def _sum_of_rows(sign: float, keep: bool):
+    def operation(y, at, x, x_at, x_step, a, a_at, a_step, count):
+        total = y[at : at + LANES].copy() if keep else np.zeros(LANES)
+        for j in range(count):
+            row = a_at + j * a_step
+            total += sign * x[x_at + j * x_step] * a[row : row + LANES]
+        y[at : at + LANES] = total
+
+    return operation
+
+
+def _product(sign: float):
+    def operation(y, at, a, a_at, b, b_at):
+        y[at : at + LANES] += sign * a[a_at : a_at + LANES] * b[b_at : b_at + LANES]
+
+    return operation
+
+
+OPERATIONS = {
+    "set_rows": _sum_of_rows(1.0, keep=False),
+    "add_rows": _sum_of_rows(1.0, keep=True),
+    "subtract_rows": _sum_of_rows(-1.0, keep=True),
+    "add_product": _product(1.0),
+    "subtract_product": _product(-1.0),
+}
+
+
+def main(states: Path, out: Path) -> None:
+    """Evaluate the states of a JSON file, each with depth and parameters; write status and outputs."""
+    compiled._compile = lambda function, _options: function
+    for name, operation in OPERATIONS.items():
+        setattr(vector, name, operation)
+    from bearing_fmu.film import make_film
+    from bearing_fmu.parameters import BearingParameters
+
+    results = []
+    np.seterr(all="ignore")  # as compiled: what is not finite is found at the end
+    for case in json.loads(states.read_text()):
+        film = make_film(case["depth"], BearingParameters(**case["parameters"]))
+        constants, *rest = film._data
+        outputs = np.full(52, np.nan)
+        status = film._kernel(
+            np.array(case["inputs"]), np.zeros(4), outputs, constants.view(np.recarray), *rest
+        )
+        results.append([float(status), *outputs])
+    np.save(out, np.array(results))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
