@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 
 from orchestrator import exit_status
+from orchestrator.certify import at_half_step
 from orchestrator.comparison.processes import DIED, cores, run_all
 from orchestrator.comparison.progress import show_runs
 from orchestrator.comparison.report import Comparison, Settings, compare, to_csv, to_json
@@ -137,7 +138,7 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
 def refine(scenario: Scenario) -> Scenario:
     """The scenario with twice the film resolution and half the macro step."""
     film = {"columns": 2 * scenario.film.columns, "rows": 2 * scenario.film.rows}
-    return with_overrides(scenario, {"film": film, "step": scenario.step / 2})
+    return with_overrides(at_half_step(scenario), {"film": film})
 
 
 def status_of(end: Ended) -> int:

@@ -152,7 +152,8 @@ class Scenario(_Model):
         Largest relative defect of a step: the wrench of a bearing less the one that the rotor was moved
         by, against the larger of the mean static load and the bearing's force (moments: times its width).
         A step that misses it is taken back and halved, or iterated until it does by the couplings newton
-        and iqn-ils (by themselves they go to 1e-6). None: every step counts.
+        and iqn-ils (by themselves they go to 1e-6). None: every step counts. It belongs to the step and
+        the coupling beside it: where an option replaces one of them, it must be given anew.
     ledger : bool
         Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created
         or lost. A step of the rotor then takes twice to three times as long.

@@ -56,7 +56,7 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
         ) from None
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise ScenarioError(str(source), [f"not readable as TOML: {error}"]) from None
-    return _checked(_merged(raw, overrides or {}), path.parent, str(source))
+    return _checked(replaced(raw, overrides or {}), path.parent, str(source))
 
 
 def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
@@ -83,7 +83,7 @@ def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario
         When the values do not fit.
     """
     raw = scenario.model_dump(mode="json", exclude_defaults=True)
-    return _checked(_merged(raw, overrides), scenario.folder, scenario.title or "scenario")
+    return _checked(replaced(raw, overrides), scenario.folder, scenario.title or "scenario")
 
 
 def train_of(scenario: Scenario) -> Train:
@@ -128,6 +128,15 @@ def _checked(raw: dict[str, Any], folder: Path, source: str) -> Scenario:
 
 def _train_path(train: str, folder: Path) -> str | Path:
     return train if train in bundled_trains() else folder / train
+
+
+def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge overrides into what a file says, table by table; None takes a key out.
+
+    A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.
+    """
+    fixed = {} if overrides.keys().isdisjoint(("step", "coupling")) else {"tolerance": None}
+    return _merged(raw, {**fixed, **overrides})
 
 
 def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

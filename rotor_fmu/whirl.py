@@ -21,7 +21,7 @@ from rotor_fmu.reduction import ReducedShaft
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_DENSE = 100
+_DENSE = 250
 """Degrees of freedom up to which all eigenvalues are computed densely."""
 
 _SHIFT = 1.0

@@ -24,6 +24,7 @@ from orchestrator.scenario import (
     Unbalance,
     WheelUnbalance,
 )
+from orchestrator.scenario_file import replaced
 from orchestrator.scenario_problems import shape_problems, time_problems
 from orchestrator.ssp.structure import Component, SspError, Structure
 from orchestrator.system import Wiring, port_connections
@@ -176,7 +177,8 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     contents : Contents
         The SSP; where its parameters say more than a scenario can, they count and not this.
     overrides : mapping
-        Values of ``end``, ``step`` and ``coupling`` in place of those of the SSP.
+        Values of ``end``, ``step``, ``coupling`` and ``tolerance`` in place of those of the SSP, as in
+        `orchestrator.scenario_file.load_scenario`.
     path : Path
         The archive.
 
@@ -197,6 +199,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
             f"allowed is {' or '.join(allowed)}"
         )
     end = overrides.get("end") or structure.end or DEFAULT_END
+    own = {} if structure.tolerance is None else {"tolerance": structure.tolerance}
     first = contents.bearings[0]
     depths = {
         seat.name: _depth(contents.files[c.name])
@@ -218,6 +221,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "end": end,
         "step": overrides.get("step") or structure.step or DEFAULT_STEP,
         "coupling": coupling,
+        "tolerance": replaced(own, overrides).get("tolerance"),
         "film": film,
         "record": {} if structure.record_interval is None else {"interval": structure.record_interval},
         "analysed_bearing": structure.analysed_bearing,

@@ -86,6 +86,7 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
                 end=scenario.end,
                 step=scenario.step,
                 coupling=scenario.coupling if wiring is Wiring.LAW else "gauss-seidel",
+                tolerance=scenario.tolerance if wiring is Wiring.LAW else None,
                 record_interval=scenario.record.interval,
                 analysed_bearing=scenario.analysed_bearing,
             )

@@ -85,6 +85,7 @@ class _Reader:
             end=None if experiment is None else _number(experiment.get("stopTime")),
             step=step,
             coupling=run.get("coupling"),
+            tolerance=_number(run.get("tolerance")),
             record_interval=_number(interval),
             analysed_bearing=run.get("analysedBearing"),
         )

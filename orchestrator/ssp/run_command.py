@@ -17,7 +17,7 @@ from orchestrator.ssp.structure import SspError
 if TYPE_CHECKING:
     from orchestrator.run_command import RunRequest
 
-_ALLOWED = ("end", "step", "coupling")
+_ALLOWED = ("end", "step", "coupling", "tolerance")
 
 
 def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
@@ -26,7 +26,7 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     Parameters
     ----------
     request : RunRequest
-        Of its overrides end, step and coupling are allowed.
+        Of its overrides end, step, coupling and tolerance are allowed.
     console, errors : rich.console.Console
         For output and for what went wrong.
 
@@ -45,7 +45,7 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
             option = key.replace("_", "-")
             raise SspError(
                 f"{request.source}: --{option} is for scenarios; an SSP holds its FMUs and parameters, "
-                "allowed are --end, --step, --coupling"
+                "allowed are --end, --step, --coupling, --tol"
             )
     path = Path(request.source)
     folder = request.out or Path("results") / path.stem

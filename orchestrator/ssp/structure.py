@@ -75,6 +75,8 @@ class Structure:
         End time and macro step in s.
     coupling : str or None
         Coupling of the orchestrator; other tools have their own.
+    tolerance : float or None
+        Largest relative defect of a step of that coupling.
     record_interval : float or None
         In s.
     analysed_bearing : str or None
@@ -88,5 +90,6 @@ class Structure:
     end: float | None = None
     step: float | None = None
     coupling: str | None = None
+    tolerance: float | None = None
     record_interval: float | None = None
     analysed_bearing: str | None = None

@@ -81,6 +81,7 @@ def _definition(structure: Structure) -> bytes:
         SubElement(algorithm, "osp:FixedStepAlgorithm", baseStepSize=repr(structure.step))
     settings = {
         "coupling": structure.coupling,
+        "tolerance": structure.tolerance,
         "recordInterval": structure.record_interval,
         "analysedBearing": structure.analysed_bearing,
     }

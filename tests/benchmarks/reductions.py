@@ -57,9 +57,8 @@ def report(source: str, fmus: Path) -> bool:
     ensure_fmus(fmus, train, depths, Console())
     at, exact, wall = run(source, "none", fmus)
     before, after = at <= WINDOW, at > WINDOW
-    print(
-        f"{source}, depth {scenario.depth}, H = {scenario.step:g} s, {WINDOW:g} s either side of the fracture"
-    )
+    steps = f"H = {scenario.step:g} s, tolerance {scenario.tolerance}"
+    print(f"{source}, depth {scenario.depth}, {steps}, {WINDOW:g} s either side of the fracture")
     sizes = f"{rms(exact[before]):.3e} N before, {rms(exact[after]):.3e} N after"
     print(f"unreduced: {wall:.0f} s, RMS of the forces {sizes}\n")
     print(

@@ -71,8 +71,8 @@ def test_report_of_the_default(reports):
     report = reports["irs"]
     assert report.static.worst < 1e-9
     assert report.free.worst < 1e-6
-    assert report.supported.worst < 5e-3
-    assert report.unbalance.worst < 5e-3
+    assert report.supported.worst < 1e-3
+    assert report.unbalance.worst < 2e-3
 
 
 def test_report_shows_what_plain_irs_loses(reports):
@@ -80,8 +80,8 @@ def test_report_shows_what_plain_irs_loses(reports):
     plain, default = reports["irs-plain"], reports["irs"]
     assert plain.free.worst < 2e-4
     assert plain.static.worst > 1e-3
-    assert plain.unbalance.worst > 3.0 * default.unbalance.worst
-    assert plain.supported.worst > 3.0 * default.supported.worst
+    assert plain.unbalance.worst > 4.0 * default.unbalance.worst
+    assert plain.supported.worst > 10.0 * default.supported.worst
 
 
 def test_report_of_no_reduction_has_no_error():
@@ -97,6 +97,6 @@ def test_report_of_no_reduction_has_no_error():
 
 def test_report_as_text(reports):
     lines = str(reports["irs"]).splitlines()
-    assert lines[0].startswith("irs, 160 degrees of freedom, ")
+    assert lines[0].startswith("irs, 220 degrees of freedom, ")
     assert lines[1].startswith("static bearing forces: ")
     assert len(lines) == 4

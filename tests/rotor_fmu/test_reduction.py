@@ -100,13 +100,13 @@ def test_frequencies_are_bounds_from_above(reduced, exact, method):
 def test_irs_is_exact_where_guyan_and_component_modes_of_the_same_size_are_not(reduced, exact):
     error = {m: np.max(np.abs(elastic(r)[:10] / exact[:10] - 1.0)) for m, r in reduced.items()}
     assert error["irs"] < 1e-7 and error["irs-plain"] < 1e-7
-    assert error["craig-bampton"] > 1e-5 and error["guyan"] > 1e-3
+    assert error["craig-bampton"] > 50.0 * error["irs"] and error["guyan"] > 1e-3
 
 
 @pytest.mark.parametrize("method", REDUCTIONS)
 def test_size_and_shapes(turbine, reduced, method):
     r = reduced[method]
-    assert r.size == 160
+    assert r.size == 220
     assert r.T.shape == (turbine.size, r.size)
     assert r.bearing.shape == (44, r.size)
     assert r.wheels.shape == (78, r.size)
@@ -222,6 +222,6 @@ def test_complement_carries_the_gyroscopic_effect(turbine, reduced):
         m: np.max(np.abs(whirl_modes(reduced[m], speed, 16, above=2.0).frequency / full - 1.0))
         for m in ("irs", "irs-plain", "guyan")
     }
-    assert error["irs"] < 2e-6
+    assert error["irs"] < 5e-7
     assert error["irs-plain"] < 2e-4
     assert error["guyan"] > 1e-3
