@@ -2,30 +2,39 @@
 
 Wheels, bearings and couplings are placed by their axial position ``z``, as on a
 drawing; it must be the boundary of two shoulders within `POSITION_TOLERANCE`.
-A file with mistakes is refused with all of them, one line each.
+A file with mistakes is refused with all of them, one line each, with line or row.
 """
 
 from __future__ import annotations
 
 import csv
-import difflib
-import tomllib
-from dataclasses import replace
-from itertools import pairwise
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
+from rotor_fmu.toml_source import LARGEST, Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
-from rotor_fmu.train_schema import BearingEntry, Placed, ShoulderRow, TrainToml, explain
+from rotor_fmu.train_checks import (
+    POSITION_TOLERANCE,
+    entry_problems,
+    load_problems,
+    names_twice,
+    nearest_node,
+    order_problems,
+    rotor_problems,
+)
+from rotor_fmu.train_schema import BearingEntry, Placed, ShoulderRow, TrainToml, WheelEntry, explain
+from rotor_fmu.wording import choice
 
-POSITION_TOLERANCE = 1e-6
-"""How far z may be off the boundary of two shoulders [m]."""
+__all__ = ["DATA", "POSITION_TOLERANCE", "TrainFileError", "bundled_trains", "load_train"]
 
 DATA = Path(__file__).parent / "data"
 _COLUMNS = tuple(ShoulderRow.model_fields)
-_RELATIVE_CLEARANCE = (1e-4, 1e-2)
+_MODELS: dict[str, type[Placed]] = {"wheel": WheelEntry, "bearing": BearingEntry, "coupling": Placed}
+_ANY = Material("", 1.0, 0.0, 1.0)
+"""In place of a material that is not known, where only the geometry counts."""
 
 
 class TrainFileError(ValueError):
@@ -57,172 +66,152 @@ def load_train(name_or_path: str | Path) -> Train:
     Raises
     ------
     TrainFileError
-        With every problem found: file, key or row, value, and what is allowed.
+        With every problem found: file, line or row, key, value, and what is allowed.
     """
-    if str(name_or_path) in bundled_trains():
-        path = DATA / str(name_or_path) / "train.toml"
-    else:
-        path = Path(name_or_path)
-        path = path / "train.toml" if path.is_dir() else path
-    if not path.is_file():
-        known = bundled_trains()
-        close = difflib.get_close_matches(str(name_or_path), known, n=1)
-        raise TrainFileError(
-            [
-                f"{name_or_path}: no such train; {f'did you mean {close[0]!r}? ' if close else ''}"
-                f"allowed are the bundled {', '.join(known)}, "
-                "or the path of a folder with train.toml and shaft.csv"
-            ]
-        )
+    path = _path_of(name_or_path)
     problems: list[str] = []
-    data = _read_toml(path, problems)
-    table = path.parent / (data.shaft if data else "shaft.csv")
-    rows = _read_shaft(table, problems)
-    train = _join(path, table, data, rows, problems) if data and not problems else None
-    if train is None:
+    try:
+        source = read_toml(path)
+    except TomlError as error:
+        problems.append(f"{path}: {error}")
+        source = TomlSource("")
+    shaft_file = source.raw.get("shaft")
+    table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
+    in_table: list[str] = []
+    rows = _read_shaft(table, in_table)
+    train, found = _checked(source, rows if not in_table else []) if not problems else (None, [])
+    in_table += _unknown_materials(rows, source.raw.get("materials"))
+    problems += (f"{path}: {source.located(problem)}" for problem in found)
+    problems += (f"{table}: {text}" for text in in_table)
+    if train is None or problems:
         raise TrainFileError(problems)
     return train
 
 
-def _read_toml(path: Path, problems: list[str]) -> TrainToml | None:
-    try:
-        raw: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as error:
-        problems.append(f"{path}: not TOML: {error}")
-        return None
-    try:
-        return TrainToml.model_validate(raw)
-    except ValidationError as error:
-        problems.extend(f"{path}: {line}" for line in explain(error, raw, TrainToml))
-        return None
+def _path_of(name_or_path: str | Path) -> Path:
+    if str(name_or_path) in bundled_trains():
+        return DATA / str(name_or_path) / "train.toml"
+    path = Path(name_or_path)
+    path = path / "train.toml" if path.is_dir() else path
+    if not path.is_file():
+        raise TrainFileError(
+            [
+                f"{name_or_path}: no such train; {choice(str(name_or_path), bundled_trains())}, which are "
+                "bundled, or the path of a folder with train.toml and shaft.csv"
+            ]
+        )
+    return path
 
 
 def _read_shaft(path: Path, problems: list[str]) -> list[tuple[int, ShoulderRow]]:
     """Rows with the number of their line in the file."""
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (UnicodeDecodeError, OSError) as error:
-        problems.append(f"{path}: not readable: {error}")
+        if path.is_file() and (size := path.stat().st_size) > LARGEST:
+            problems.append(f"not readable: {size} bytes, allowed are {LARGEST}")
+            return []
+        lines = path.read_text(encoding="utf-8").split("\n")
+    except (ValueError, OSError) as error:
+        problems.append(f"not readable: {error}")
         return []
     content = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
     header = tuple(cell.strip() for cell in content[0][1].split(",")) if content else ()
     if header != _COLUMNS:
-        problems.append(f"{path}: header {','.join(header)!r}; allowed is {','.join(_COLUMNS)!r}")
+        problems.append(f"header {','.join(header)!r}; allowed is {','.join(_COLUMNS)!r}")
         return []
     rows = []
     for number, line in content[1:]:
-        cells = [cell.strip() for cell in next(csv.reader([line]))]
+        cells = _cells(line)
         if len(cells) != len(_COLUMNS):
-            problems.append(f"{path}: row {number}: {len(cells)} values; allowed are {len(_COLUMNS)}")
+            problems.append(f"row {number}: {len(cells)} values; allowed are {len(_COLUMNS)}")
             continue
         raw = dict(zip(_COLUMNS, cells, strict=True))
         try:
             rows.append((number, ShoulderRow.model_validate(raw)))
         except ValidationError as error:
-            problems.extend(f"{path}: row {number}: {line}" for line in explain(error, raw, ShoulderRow))
+            problems.extend(f"row {number}: {text}" for _, text in explain(error, raw, ShoulderRow))
     if len(content) == 1:
-        problems.append(f"{path}: no shoulders; at least one row is needed")
+        problems.append("no shoulders; at least one row is needed")
     return rows
 
 
-def _join(
-    path: Path, table: Path, data: TrainToml, rows: list[tuple[int, ShoulderRow]], problems: list[str]
-) -> Train | None:
-    """Place wheels, bearings and couplings on the shaft and check what spans both files."""
-    materials = {name: Material(name, **entry.model_dump()) for name, entry in data.materials.items()}
+def _cells(line: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([line]), [])]
+    except csv.Error:
+        return []
+
+
+def _unknown_materials(rows: list[tuple[int, ShoulderRow]], materials: Any) -> Iterator[str]:
+    if not isinstance(materials, Mapping):
+        return  # said elsewhere
     for number, row in rows:
         if row.material not in materials:
-            known = ", ".join(materials)
-            problems.append(f"{table}: row {number}: material = {row.material!r}; allowed are {known}")
-    if problems:
-        return None
-    shaft = Train(
-        name=data.name,
-        speed=data.speed,
-        rayleigh_alpha=data.damping.alpha,
-        rayleigh_beta=data.damping.beta,
-        balance_grade=data.balance_grade,
-        shoulders=tuple(
-            Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials[row.material])
-            for _, row in rows
-        ),
-        wheels=(),
-        bearings=(),
+            yield f"row {number}: material = {row.material!r}; {choice(row.material, materials)}"
+
+
+def _checked(source: TomlSource, rows: list[tuple[int, ShoulderRow]]) -> tuple[Train | None, list[Problem]]:
+    """Return the train, or None with what is wrong in train.toml, by itself and on this shaft."""
+    data, found = None, list[Problem]()
+    try:
+        data = TrainToml.model_validate(source.raw)
+    except ValidationError as error:
+        found += explain(error, source.raw, TrainToml)
+    found += names_twice(source.raw)
+    if not rows:
+        return None, found
+    known = data.materials if data else {}
+    materials = {name: Material(name, **entry.model_dump()) for name, entry in known.items()}
+    shoulders = tuple(
+        Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials.get(row.material, _ANY))
+        for _, row in rows
     )
-    found: list[str] = []
-    wheels, bearings, couplings = (
-        [_place(shaft, kind, entry, found) for entry in getattr(data, kind)]
-        for kind in ("wheel", "bearing", "coupling")
-    )
+    shaft = _train(data, shoulders)
+    for kind, model in _MODELS.items():
+        for index, entry in _sound(source.raw.get(kind), model):
+            found += entry_problems(shaft, kind, index, entry)
+    if data is None or found:
+        return None, found
+    nodes = {kind: [nearest_node(shaft, entry.z) for entry in getattr(data, kind)] for kind in _MODELS}
+    found += order_problems(shaft, "bearing", data.bearing, nodes["bearing"])
+    found += order_problems(shaft, "coupling", data.coupling, nodes["coupling"])
     if not found:
-        found += _check_order(shaft, "bearing", bearings) + _check_order(shaft, "coupling", couplings)
-        found += _check_rotors(shaft, bearings, couplings)
-    for entry, seat in zip(data.bearing, bearings, strict=True):
-        found += [f"bearing {entry.name!r}: {text}" for text in _check_seat(shaft, entry, seat["node"])]
-    problems.extend(f"{path}: {text}" for text in found)
-    if problems:
-        return None
-    return replace(
-        shaft,
-        wheels=tuple(Wheel(**w) for w in wheels),
-        bearings=tuple(BearingSeat(**b) for b in bearings),
-        couplings=tuple(Coupling(**c) for c in couplings),
+        found += rotor_problems(shaft, data.coupling, nodes)
+    if found or any(row.material not in materials for _, row in rows):
+        return None, found
+    train = _train(data, shoulders, nodes)
+    return train, list(load_problems(train))
+
+
+def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:
+    """Yield those entries of a list that are right by themselves, whatever the others are."""
+    for index, entry in enumerate(entries if isinstance(entries, list) else ()):
+        try:
+            yield index, model.model_validate(entry)
+        except ValidationError:
+            continue  # said with the whole file
+
+
+def _train(
+    data: TrainToml | None,
+    shoulders: tuple[Shoulder, ...],
+    nodes: Mapping[str, list[int]] | None = None,
+) -> Train:
+    """Return the train; without nodes only its shaft, without data only the geometry of that."""
+    parts: dict[str, list[dict[str, Any]]] = {kind: [] for kind in _MODELS}
+    for kind, places in (nodes or {}).items():
+        entries = getattr(data, kind)
+        parts[kind] = [
+            {**entry.model_dump(exclude={"z"}), "node": node}
+            for entry, node in zip(entries, places, strict=True)
+        ]
+    return Train(
+        name=data.name if data else "",
+        speed=data.speed if data else 1.0,
+        rayleigh_alpha=data.damping.alpha if data else 0.0,
+        rayleigh_beta=data.damping.beta if data else 0.0,
+        balance_grade=data.balance_grade if data else 0.0,
+        shoulders=shoulders,
+        wheels=tuple(Wheel(**wheel) for wheel in parts["wheel"]),
+        bearings=tuple(BearingSeat(**bearing) for bearing in parts["bearing"]),
+        couplings=tuple(Coupling(**coupling) for coupling in parts["coupling"]),
     )
-
-
-def _place(shaft: Train, kind: str, entry: Placed, found: list[str]) -> dict[str, Any]:
-    """The entry with its node instead of z."""
-    z = shaft.z
-    node = min(range(len(z)), key=lambda k: abs(z[k] - entry.z))
-    if abs(z[node] - entry.z) > POSITION_TOLERANCE:
-        near = ", ".join(f"{value:.6g}" for value in z[max(node - 1, 0) : node + 2])
-        found.append(
-            f"{kind} {entry.name!r}: z = {entry.z!r}; allowed are boundaries of shoulders, the nearest {near}"
-        )
-    return {**entry.model_dump(exclude={"z"}), "node": node}
-
-
-def _check_order(shaft: Train, kind: str, placed: list[dict[str, Any]]) -> list[str]:
-    found = []
-    ends = (0, shaft.nodes - 1)
-    for p in placed:
-        if p["node"] in ends:
-            found.append(
-                f"{kind} {p['name']!r}: z = {shaft.z[p['node']]:.6g}; allowed is between the shaft's ends, "
-                f"0 and {shaft.length:.6g}"
-            )
-    for before, after in pairwise(placed):
-        if after["node"] <= before["node"]:
-            found.append(
-                f"{kind} {after['name']!r}: z = {shaft.z[after['node']]:.6g}; allowed is more than that of "
-                f"{before['name']!r} before it, {shaft.z[before['node']]:.6g}"
-            )
-    return found
-
-
-def _check_seat(shaft: Train, entry: BearingEntry, node: int) -> list[str]:
-    found = []
-    low, high = (factor * entry.diameter / 2.0 for factor in _RELATIVE_CLEARANCE)
-    if not low <= entry.clearance <= high:
-        found.append(
-            f"clearance = {entry.clearance!r}; allowed is the radial clearance, {low:.3g} to {high:.3g} "
-            f"(1e-4 to 1e-2 of the radius) for diameter {entry.diameter:g}"
-        )
-    around = {s.outer_diameter for s in shaft.shoulders[max(node - 1, 0) : node + 1]}
-    if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in around):
-        there = " and ".join(f"{d:g}" for d in sorted(around))
-        found.append(f"diameter = {entry.diameter!r}; allowed is the shaft's own diameter there, {there}")
-    return found
-
-
-def _check_rotors(shaft: Train, bearings: list[dict[str, Any]], couplings: list[dict[str, Any]]) -> list[str]:
-    """Every rotor between couplings stands on a bearing, and the train on two at least."""
-    found = []
-    names = ["the front end", *(repr(c["name"]) for c in couplings), "the rear end"]
-    cuts = [0, *(c["node"] for c in couplings), shaft.nodes - 1]
-    for (front, rear), (first, last) in zip(pairwise(names), pairwise(cuts), strict=True):
-        if not any(first < b["node"] < last for b in bearings):
-            found.append(f"bearing: none between {front} and {rear}; allowed is at least one")
-    if len(bearings) < 2:
-        found.append(f"bearing: {len(bearings)} in all; allowed are at least two")
-    return found
