@@ -81,7 +81,7 @@ def bearing_recipe(depth: str, starts: Mapping[str, port.Value] | None = None) -
         facade_class="BearingSlave",
         packages=("fmus", "bearing_fmu"),
         variables=lambda: port.BEARING,
-        arguments={"depth": depth, "starts": dict(starts or {})},
+        arguments={"depth": depth, "starts": dict(sorted((starts or {}).items()))},
         starts=starts or {},
     )
 

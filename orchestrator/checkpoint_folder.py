@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,13 @@ def checkpoint_folder(folder: Path) -> Path:
     return folder.with_name(folder.name + SUFFIX)
 
 
-def checkpoints(scenario: Scenario, request: RunRequest, folder: Path) -> Checkpoints | None:
-    """What writes the checkpoints that a request asks for, with all that is needed to go on."""
+def checkpoints(
+    scenario: Scenario, request: RunRequest, folder: Path, trusted: Sequence[str] = ()
+) -> Checkpoints | None:
+    """What writes the checkpoints that a request asks for, with all that is needed to go on.
+
+    Digests of FMUs that the user has agreed to run are kept, so that a resumed run need not ask.
+    """
     if request.checkpoint is None:
         return None
     about: dict[str, Any] = {
@@ -36,6 +42,7 @@ def checkpoints(scenario: Scenario, request: RunRequest, folder: Path) -> Checkp
         "every": request.checkpoint,
         "certify": request.certify,
         "threads": request.threads,
+        "trusted": list(trusted),
     }
     return Checkpoints(checkpoint_folder(folder), request.checkpoint, about)
 

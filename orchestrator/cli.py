@@ -14,7 +14,7 @@ from typing import Annotated, Any
 import typer
 
 from orchestrator import cli_compare, cli_linear, cli_resume, cli_ssp
-from orchestrator.cli_options import Coupling, Depth, Format, Reduction, guarded
+from orchestrator.cli_options import Coupling, Depth, Format, Reduction, Trust, guarded
 from orchestrator.exit_status import status_lines
 
 app = typer.Typer(
@@ -45,7 +45,7 @@ RUN_EPILOG = f"""\
   bladeloss run                                the reference scenario
   bladeloss run --depth v2                     the same with aligned films
   bladeloss run --depth-at LP2-front=v2        v1, but for one bearing
-  bladeloss run --depth-at LP2-front=own.fmu   your own bearing there
+  bladeloss run --depth-at LP2-front=own.fmu --trust  your own bearing there
   bladeloss run small                          a small train: some seconds
   bladeloss run my.toml --end 0.5 --out cut    your own, cut short
 
@@ -135,6 +135,7 @@ def run(
         typer.Option("--format", metavar="TYPE", help="Of the figures: png (default), pdf, svg; repeatable."),
     ] = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
+    trust: Trust = False,
 ) -> None:
     """Simulate a scenario, see `RUN_HELP`."""
     overrides: dict[str, Any] = {
@@ -159,7 +160,9 @@ def run(
         from orchestrator.run_command import run as run_scenario
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
-        request = RunRequest(scenario, overrides, out, fmus, bearing, formats, checkpoint, certify, threads)
+        request = RunRequest(
+            scenario, overrides, out, fmus, bearing, formats, checkpoint, certify, threads, trust
+        )
         return run_scenario(request, Console(), Console(stderr=True))
 
     guarded(work)

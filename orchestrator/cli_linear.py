@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from orchestrator.cli_options import Depth, Format, guarded
+from orchestrator.cli_options import Depth, Format, Trust, guarded
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -91,6 +91,7 @@ def campbell(
     out: Out = None,
     fmus: Fmus = Path("fmus"),
     formats: Formats = None,
+    trust: Trust = False,
 ) -> None:
     """Campbell diagram, see `CAMPBELL_HELP`."""
 
@@ -100,7 +101,7 @@ def campbell(
         return run(request, console, supported=supported, count=count, highest=highest)
 
     name = "campbell-supported" if supported else "campbell"
-    _run(work, name, source, depth, out, fmus, formats)
+    _run(work, name, source, depth, out, fmus, formats, trust)
 
 
 def modes(
@@ -112,6 +113,7 @@ def modes(
     out: Out = None,
     fmus: Fmus = Path("fmus"),
     formats: Formats = None,
+    trust: Trust = False,
 ) -> None:
     """Mode shapes, see `MODES_HELP`."""
 
@@ -120,7 +122,7 @@ def modes(
 
         return run(request, console, count=count)
 
-    _run(work, "modes", source, depth, out, fmus, formats)
+    _run(work, "modes", source, depth, out, fmus, formats, trust)
 
 
 def harmonic(
@@ -130,6 +132,7 @@ def harmonic(
     out: Out = None,
     fmus: Fmus = Path("fmus"),
     formats: Formats = None,
+    trust: Trust = False,
 ) -> None:
     """Unbalance response, see `HARMONIC_HELP`."""
 
@@ -138,11 +141,15 @@ def harmonic(
 
         return run(request, console, highest=highest)
 
-    _run(work, "harmonic", source, depth, out, fmus, formats)
+    _run(work, "harmonic", source, depth, out, fmus, formats, trust)
 
 
 def reductions(
-    source: Source = "paper", depth: FilmDepth = None, out: Out = None, fmus: Fmus = Path("fmus")
+    source: Source = "paper",
+    depth: FilmDepth = None,
+    out: Out = None,
+    fmus: Fmus = Path("fmus"),
+    trust: Trust = False,
 ) -> None:
     """Errors of reductions, see `REDUCTIONS_HELP`."""
 
@@ -151,7 +158,7 @@ def reductions(
 
         return run(request, console)
 
-    _run(work, "reductions", source, depth, out, fmus, None)
+    _run(work, "reductions", source, depth, out, fmus, None, trust)
 
 
 def _run(
@@ -162,6 +169,7 @@ def _run(
     out: Path | None,
     fmus: Path,
     formats: list[Format] | None,
+    trust: bool,
 ) -> None:
     """Do a command's work; without an equilibrium the status is that of a run without one."""
 
@@ -174,7 +182,7 @@ def _run(
         from orchestrator.outcome import Outcome
 
         kinds = tuple(str(kind) for kind in formats or [Format.PNG])
-        request = LinearRequest(name, source, depth and str(depth), out, fmus, kinds)
+        request = LinearRequest(name, source, depth and str(depth), out, fmus, kinds, trust)
         try:
             return work(request, Console())
         except EquilibriumError as error:

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import StrEnum
+from typing import Annotated
 
 import typer
+
+Trust = Annotated[
+    bool,
+    typer.Option("--trust", help="Run FMUs that bladeloss did not build: native code, with all your rights."),
+]
 
 
 class Depth(StrEnum):

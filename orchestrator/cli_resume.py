@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from orchestrator.cli_options import guarded
+from orchestrator.cli_options import Trust, guarded
 
 
 def register(app: typer.Typer) -> None:
@@ -17,6 +17,7 @@ def register(app: typer.Typer) -> None:
 
 def resume(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The --out of the run, or its checkpoint.")],
+    trust: Trust = False,
 ) -> None:
     """Go on with a run that was killed, from its last checkpoint.
 
@@ -29,6 +30,6 @@ def resume(
 
         from orchestrator.resume_command import resume as resume_run
 
-        return resume_run(folder, Console(), Console(stderr=True))
+        return resume_run(folder, Console(), Console(stderr=True), trust=trust)
 
     guarded(work)

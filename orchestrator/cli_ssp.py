@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from orchestrator.cli_options import guarded
+from orchestrator.cli_options import Trust, guarded
 
 EXPORT_HELP = (
     "Write a scenario as an SSP (SSP 1.0): its system and its start, for other co-simulation tools.\n\n"
@@ -30,6 +30,7 @@ def export_ssp(
         Path | None, typer.Option(metavar="FILE", help="By default <SCENARIO>.ssp in the current folder.")
     ] = None,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    trust: Trust = False,
 ) -> None:
     """Export a scenario, see `EXPORT_HELP`."""
 
@@ -38,7 +39,7 @@ def export_ssp(
 
         from orchestrator.ssp.export_command import export_scenario
 
-        export_scenario(scenario, out, fmus, Console())
+        export_scenario(scenario, out, fmus, Console(), trust=trust)
         return 0
 
     guarded(work)

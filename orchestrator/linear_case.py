@@ -19,6 +19,7 @@ from orchestrator.operating_point import OperatingPoint, operating_point
 from orchestrator.result_folder import check_folder, result_folder
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import bundled_scenarios, load_scenario, scenario_toml, train_of
+from orchestrator.trust import own_bearings, require_trust
 from rotor_fmu.linear import (
     DEFAULT_SIZE,
     METHODS,
@@ -67,6 +68,8 @@ class LinearRequest:
         Folder of the FMUs.
     formats : sequence of str
         File types of the figure.
+    trust : bool
+        Run FMUs of others without asking.
     """
 
     command: str
@@ -75,6 +78,7 @@ class LinearRequest:
     out: Path | None = None
     fmus: Path = Path("fmus")
     formats: Sequence[str] = ("png",)
+    trust: bool = False
 
     @property
     def folder(self) -> Path:
@@ -127,6 +131,7 @@ class LinearCase:
     def operating_point(self) -> OperatingPoint:
         """Linearised bearings at rated speed; FMUs are built where missing."""
         depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
+        require_trust(own_bearings(self.scenario), self.request.fmus, trust=self.request.trust)
         ensure_fmus(self.request.fmus, self.train, depths, self.console)
         return operating_point(self.scenario, self.train, self.request.fmus)
 

@@ -13,7 +13,7 @@ from orchestrator.run_command import RunRequest, carry_out_request
 from orchestrator.scenario_file import parse_scenario
 
 
-def resume(folder: Path, console: Console, errors: Console) -> int:
+def resume(folder: Path, console: Console, errors: Console, *, trust: bool = False) -> int:
     """Go on with a run to its end, write its results, say what came out.
 
     Parameters
@@ -22,6 +22,8 @@ def resume(folder: Path, console: Console, errors: Console) -> int:
         Folder of the run's results, or that of its checkpoint.
     console, errors : rich.console.Console
         For output and for what went wrong.
+    trust : bool
+        Run FMUs of others without asking, also those to which the run's own start said nothing.
 
     Returns
     -------
@@ -47,6 +49,7 @@ def resume(folder: Path, console: Console, errors: Console) -> int:
             checkpoint=about["every"],
             certify=about["certify"],
             threads=about["threads"],
+            trust=trust,
         )
     except KeyError as error:
         raise CheckpointError(f"{saved.path}: {error} is missing") from None

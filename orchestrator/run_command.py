@@ -24,6 +24,7 @@ from orchestrator.scenario_file import load_scenario, scenario_toml, train_of, w
 from orchestrator.simulate import Execution, Result, default_threads, simulate
 from orchestrator.summary import RunSummary, summarise
 from orchestrator.summary_table import SummaryTable, to_text
+from orchestrator.trust import own_bearings, require_trust
 
 if TYPE_CHECKING:
     from orchestrator.checkpoint import Checkpoint
@@ -55,6 +56,8 @@ class RunRequest:
         Run once more at half the step, with the energy ledger in both, and say what changes.
     threads : int or None
         On which the bearings step; None: as many as pay.
+    trust : bool
+        Run FMUs of others without asking.
     """
 
     source: str
@@ -66,6 +69,7 @@ class RunRequest:
     checkpoint: float | None = None
     certify: bool = False
     threads: int | None = None
+    trust: bool = False
 
 
 def default_folder(source: str, scenario: Scenario) -> Path:
@@ -120,11 +124,13 @@ def carry_out_request(
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
     check_folder(folder)
+    known = saved.about.get("trusted", ()) if saved is not None else ()
+    trusted = require_trust(own_bearings(scenario), request.fmus, trust=request.trust, known=known)
     threads = request.threads or default_threads(scenario, train)
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     ensure_fmus(request.fmus, train, depths, console)
     with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        execution = Execution(checkpoints(scenario, request, folder), saved, threads)
+        execution = Execution(checkpoints(scenario, request, folder, trusted), saved, threads)
         result = simulate(scenario, request.fmus, progress, execution)
     certified = request.certify and result.outcome.ok
     half = _at_half_step(scenario, request, console, threads) if certified else None

@@ -10,12 +10,15 @@ from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.scenario_file import load_scenario, train_of
 from orchestrator.ssp.export import export, force_only
 from orchestrator.ssp.structure import SspError
+from orchestrator.trust import own_bearings, require_trust
 
 DEFAULT_SCENARIO = "paper"
 DEFAULT_NAME = "bladeloss"
 
 
-def export_scenario(source: str, out: Path | None, fmus: Path, console: Console) -> list[Path]:
+def export_scenario(
+    source: str, out: Path | None, fmus: Path, console: Console, *, trust: bool = False
+) -> list[Path]:
     """Write a scenario's system as SSP archives and say where.
 
     Parameters
@@ -28,6 +31,8 @@ def export_scenario(source: str, out: Path | None, fmus: Path, console: Console)
         Folder of the FMUs; what is missing or stale is built.
     console : rich.console.Console
         Told what was written.
+    trust : bool
+        Run FMUs of others, to find the start, without asking.
 
     Raises
     ------
@@ -38,6 +43,7 @@ def export_scenario(source: str, out: Path | None, fmus: Path, console: Console)
     path = out or Path(f"{Path(source).stem}.ssp")
     if path.suffix != ".ssp":
         raise SspError(f"--out {path}: allowed is a name that ends in .ssp")
+    require_trust(own_bearings(scenario), fmus, trust=trust)
     train = train_of(scenario)
     ensure_fmus(fmus, train, {scenario.depth_of(seat.name) for seat in train.bearings}, console)
     console.print("Solving the static equilibrium", highlight=False)

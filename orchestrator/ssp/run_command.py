@@ -13,6 +13,7 @@ from orchestrator.result_folder import check_folder
 from orchestrator.run_command import check_bearing, conclude
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
+from orchestrator.trust import require_trust
 
 if TYPE_CHECKING:
     from orchestrator.run_command import RunRequest
@@ -52,6 +53,7 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     check_folder(folder)
     with SspRun(path, request.overrides) as prepared:
         check_bearing(request, prepared.train)
+        require_trust(prepared.fmus, request.fmus, trust=request.trust)
         with (
             show_progress(prepared.scenario.end, console) as show,
             interrupt_between_steps(show) as progress,

@@ -42,6 +42,8 @@ class SspRun:
     ----------
     scenario, train : Scenario, Train
         What the SSP describes.
+    fmus : dict
+        The extracted FMUs, by the name to show.
     """
 
     def __init__(self, path: Path, overrides: Mapping[str, Any] | None = None) -> None:
@@ -57,6 +59,10 @@ class SspRun:
             self.close()
             raise
         self.train: Train = self._contents.train
+        self.fmus: dict[str, Path] = {
+            f"{path}: {c.source}": self._contents.files[c.name].path
+            for c in self._contents.structure.components
+        }
 
     def simulate(self, progress: Progress | None = None) -> Result:
         """Run it from its start parameters; no equilibrium is sought.

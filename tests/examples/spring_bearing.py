@@ -1,7 +1,7 @@
 """A bearing of your own: a linear spring and damper with the port of bladeloss' bearings.
 
 Build it with ``pythonfmu build -f spring_bearing.py`` and use it with
-``bladeloss run small --depth-at rear=SpringBearing.fmu``.
+``bladeloss run small --depth-at rear=SpringBearing.fmu --trust``.
 """
 
 import numpy as np

@@ -1,11 +1,15 @@
 """Small units with known answers, built once a session."""
 
+import tempfile
 from pathlib import Path
 
 import pytest
 from pythonfmu.builder import FmuBuilder
 
+from fmus.build import build
 from orchestrator.fmu_file import FmuStore
+from orchestrator.scenario_file import load_scenario, train_of
+from orchestrator.ssp.export import export
 
 UNITS = Path(__file__).parent / "units"
 
@@ -39,3 +43,27 @@ def store():
     """Extracted FMUs, removed after the test."""
     with FmuStore() as store:
         yield store
+
+
+@pytest.fixture(scope="session")
+def small_fmus(tmp_path_factory):
+    """FMUs of the small train with short bearings."""
+    folder = tmp_path_factory.mktemp("small")
+    build(folder, [train_of(load_scenario("small"))], depths=("v3",))
+    return folder
+
+
+@pytest.fixture(scope="session")
+def small_ssp(small_fmus, tmp_path_factory):
+    """The small train as an SSP, 0.01 s long."""
+    scenario = load_scenario("small", {"depth": "v3", "end": 0.01, "event": None})
+    return export(scenario, small_fmus, tmp_path_factory.mktemp("ssp") / "small.ssp", "small")[0]
+
+
+@pytest.fixture
+def room(tmp_path, monkeypatch):
+    """Where archives are extracted to; empty."""
+    folder = tmp_path / "room"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
