@@ -27,7 +27,9 @@ def bearing_part(p: Floats, count: int, nodal: Floats, own: Floats, ahead: Float
         p_0 w_0 + p_1 w_1                              (both positive)
         p_0 s [w_0 + s (1 - s)(w_0 - w_1)]             (p_0 > 0 > p_1)
 
-    Collected by nodes the integral is the sum of nodal_i w_i times the cell length.
+    Collected by nodes the integral is the sum of nodal_i w_i times the cell length.  In an empty film, of a
+    centred journal say, every node is at the corner of the positive part; there the derivative is the mean of
+    those on both sides.
 
     Parameters
     ----------
@@ -51,8 +53,9 @@ def bearing_part(p: Floats, count: int, nodal: Floats, own: Floats, ahead: Float
         if p0 >= 0.0 and p1 >= 0.0:
             nodal[i] += 0.5 * p0
             nodal[k] += 0.5 * p1
-            own[i] += 0.5
-            own[k] += 0.5
+            share = 0.5 if p0 > 0.0 or p1 > 0.0 else 0.25
+            own[i] += share
+            own[k] += share
         elif p0 > 0.0:
             s = p0 / (p0 - p1)
             bend = s * s * (1.0 - s)

@@ -108,3 +108,21 @@ def test_force_is_continuously_differentiable_through_the_zeroing(depth):
     stiffness = np.array([respond(film, [e, 0.1, 0.05, 0.02]).stiffness[:2, :2].ravel() for e in path])
     jumps = np.abs(np.diff(stiffness, axis=0)).max()
     assert jumps < 3.0 * np.abs(stiffness[-1] - stiffness[0]).max() / path.size * 4.0
+
+
+@pytest.mark.parametrize("depth", ["v1", "v2"])
+@pytest.mark.parametrize("q, speed", [((0.0, 0.0, 0.0, 0.0), 1.5), ((0.3, -0.2, 0.0, 0.0), 0.0)])
+def test_empty_film(depth, q, speed):
+    """Centred, or at standstill, nothing carries pressure: the tangent is the mean of those on both sides.
+
+    To the accuracy of the grid, which turns with the direction of the step.
+    """
+    film = make_film(depth, plain(0.7))
+    units = lever(film.parameters)
+    response = film.respond(np.array(q) * units, np.zeros(4), speed)
+    for k in range(2):
+        d = 1e-7 * np.eye(4)[k] * units
+        for matrix, dq, dv in ((response.stiffness, d, 0.0 * d), (response.damping, 0.0 * d, d)):
+            ahead, behind = (film.respond(np.array(q) * units + s * dq, s * dv, speed) for s in (1.0, -1.0))
+            difference = -(ahead.wrench - behind.wrench) / (2 * d[k])
+            np.testing.assert_allclose(matrix[:2, k], difference[:2], atol=1e-4 * abs(response.damping[:2, :2]).max())
