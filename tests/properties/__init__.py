@@ -1,0 +1,1 @@
+"""Properties that hold for whatever hypothesis draws; see ``conftest.py`` for how much it draws."""
