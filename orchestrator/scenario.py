@@ -36,7 +36,10 @@ DepthOrFmu = Annotated[Depth, WrapValidator(_or_fmu)]
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+Angle = Annotated[
+    float, Field(ge=-6.3, le=6.3, allow_inf_nan=False, description="rad; did you give degrees?")
+]
+Grade = Annotated[float | None, Field(ge=0.0, le=0.1, allow_inf_nan=False, description="m/s; G2.5 is 2.5e-3")]
 
 
 class _Model(BaseModel):
@@ -57,7 +60,7 @@ class WheelUnbalance(_Model):
     """
 
     unbalance: NotNegative
-    phase: Finite = 0.0
+    phase: Angle = 0.0
 
 
 class Unbalance(_Model):
@@ -71,7 +74,7 @@ class Unbalance(_Model):
         Overrides by the name of the wheel.
     """
 
-    grade: NotNegative | None = None
+    grade: Grade = None
     at: dict[str, WheelUnbalance] = {}
 
 
@@ -92,7 +95,7 @@ class BladeFracture(_Model):
 
     wheel: str
     unbalance: Positive
-    phase: Finite = 0.0
+    phase: Angle = 0.0
     time: NotNegative
 
 
@@ -107,8 +110,8 @@ class FilmResolution(_Model):
         Along the axis.
     """
 
-    columns: Annotated[int, Field(ge=16, le=1024)] = 48
-    rows: Annotated[int, Field(ge=3, le=64)] = 8
+    columns: Annotated[int, Field(ge=16, le=512)] = 48
+    rows: Annotated[int, Field(ge=3, le=30)] = 8
 
 
 class RecordSettings(_Model):

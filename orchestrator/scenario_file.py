@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,17 @@ from pydantic import ValidationError
 
 from orchestrator.errors import ScenarioError
 from orchestrator.scenario import Scenario
-from orchestrator.scenario_problems import file_problems, name_problems, shape_problems, time_problems
+from orchestrator.scenario_problems import (
+    file_problems,
+    name_problems,
+    shape_problems,
+    time_problems,
+    unbalance_problems,
+)
+from rotor_fmu.toml_source import Location, Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train import Train
 from rotor_fmu.train_file import TrainFileError, bundled_trains, load_train
+from rotor_fmu.wording import choice
 
 _SCENARIOS = Path(__file__).parent / "scenarios"
 
@@ -47,16 +54,14 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
     path = Path(source)
     if str(source) in bundled_scenarios():
         path = _SCENARIOS / f"{source}.toml"
+    elif not path.exists():
+        known = choice(str(source), bundled_scenarios())
+        raise ScenarioError(str(source), [f"no such scenario; {known}, or the path of a TOML file"])
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        known = ", ".join(bundled_scenarios())
-        raise ScenarioError(
-            str(source), [f"no such scenario; allowed are {known}, or the path of a TOML file"]
-        ) from None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ScenarioError(str(source), [f"not readable as TOML: {error}"]) from None
-    return _checked(replaced(raw, overrides or {}), path.parent, str(source))
+        toml = read_toml(path)
+    except TomlError as error:
+        raise ScenarioError(str(source), [str(error)]) from None
+    return _checked(toml, overrides or {}, path.parent, str(source))
 
 
 def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
@@ -68,10 +73,10 @@ def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
         As in `load_scenario`.
     """
     try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(source, [f"not readable as TOML: {error}"]) from None
-    return _checked(raw, folder, source)
+        toml = TomlSource(text)
+    except TomlError as error:
+        raise ScenarioError(source, [str(error)]) from None
+    return _checked(toml, {}, folder, source)
 
 
 def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario:
@@ -83,7 +88,8 @@ def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario
         When the values do not fit.
     """
     raw = scenario.model_dump(mode="json", exclude_defaults=True)
-    return _checked(replaced(raw, overrides), scenario.folder, scenario.title or "scenario")
+    nothing = TomlSource("")  # the problems have no lines
+    return _checked(nothing, replaced(raw, overrides), scenario.folder, scenario.title or "scenario")
 
 
 def train_of(scenario: Scenario) -> Train:
@@ -102,12 +108,14 @@ def scenario_toml(scenario: Scenario) -> str:
     return "\n".join(_toml_lines(scenario.model_dump(mode="json", exclude_none=True), ())) + "\n"
 
 
-def _checked(raw: dict[str, Any], folder: Path, source: str) -> Scenario:
-    problems: list[str] = []
+def _checked(toml: TomlSource, overrides: Mapping[str, Any], folder: Path, source: str) -> Scenario:
+    """Return what a file says with overrides in place of its values, or raise with all problems."""
+    raw = replaced(toml.raw, overrides)
+    problems: list[Problem] = []
     scenario = train = None
     try:
         if "folder" in raw:
-            problems.append("folder: unknown key")
+            problems.append((("folder",), "folder: unknown key"))
         scenario = Scenario.model_validate({**raw, "folder": folder})
     except ValidationError as error:
         problems += shape_problems(error)
@@ -115,15 +123,29 @@ def _checked(raw: dict[str, Any], folder: Path, source: str) -> Scenario:
         try:
             train = load_train(_train_path(raw["train"], folder))
         except TrainFileError as error:
-            problems += (f"train = {raw['train']!r}: {problem}" for problem in error.problems)
+            problems += ((("train",), f"train = {raw['train']!r}: {text}") for text in error.problems)
     if train is not None:
         problems += name_problems(raw, train)
     problems += file_problems(raw, folder)
     if train is not None and scenario is not None:
         problems += time_problems(scenario, train)
+        problems += unbalance_problems(scenario, train)
     if scenario is None or problems:
-        raise ScenarioError(source, problems)
+        lines = [text if _holds(overrides, at) else toml.located((at, text)) for at, text in problems]
+        raise ScenarioError(source, lines)
     return scenario
+
+
+def _holds(overrides: Mapping[str, Any], location: Location) -> bool:
+    """Whether the value at a location is an override, which stands on no line of the file."""
+    value: Any = overrides
+    for step in location:
+        if not isinstance(value, Mapping):
+            return True
+        if step not in value:
+            return False
+        value = value[step]
+    return True
 
 
 def _train_path(train: str, folder: Path) -> str | Path:

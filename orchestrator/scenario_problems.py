@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
 import math
+import os
 import typing
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -12,92 +12,125 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from orchestrator.scenario import Scenario, is_fmu
+from rotor_fmu.toml_source import Problem
 from rotor_fmu.train import Train
+from rotor_fmu.wording import choice, refusal, shown
 
 STEPS_PER_REVOLUTION = 10
 """Least number of macro steps in a revolution: below it the unbalance itself is not resolved."""
 
-_ALLOWED = {
-    "greater_than": "a number greater than {gt:g}",
-    "greater_than_equal": "a number of at least {ge:g}",
-    "less_than_equal": "a number of at most {le:g}",
-    "float_parsing": "a number",
-    "float_type": "a number",
-    "finite_number": "a finite number",
-    "int_parsing": "a whole number",
-    "int_type": "a whole number",
-    "int_from_float": "a whole number",
-    "string_type": "a text in quotes",
-    "dict_type": "a table, [...]",
-    "model_type": "a table, [...]",
-}
+_BYTES_AT_BEARING = 8 * 30
+_BYTES_AT_NODE = 4 * 4
+"""Of one sample of the record, see `orchestrator.recorder`."""
 
-
-def shape_problems(error: ValidationError) -> Iterator[str]:
+def shape_problems(error: ValidationError) -> Iterator[Problem]:
     """Yield what pydantic found: unknown and missing keys, wrong types, values out of range."""
     for problem in error.errors():
         path = [str(part) for part in problem["loc"]]
-        where, kind, value = ".".join(path), problem["type"], problem.get("input")
+        where, kind = ".".join(path), problem["type"]
         if kind == "extra_forbidden":
-            yield f"{where}: unknown key; {_choice(path[-1], _keys_at(path[:-1]))}"
+            text = f"{where}: unknown key; {choice(path[-1], _keys_at(path[:-1]))}"
         elif kind == "missing":
-            yield f"{where}: missing; it must be given"
+            text = f"{where}: missing; it must be given"
         elif kind == "literal_error":
-            yield f"{where} = {value!r}; {_choice(str(value), _literals(path))}"
+            value = problem["input"]
+            text = f"{where} = {shown(value)}; {choice(str(value), _literals(path))}"
         else:
-            text = _ALLOWED.get(kind, problem["msg"]).format(**problem.get("ctx", {}))
-            yield f"{where} = {value!r}; allowed is {text}"
+            text = refusal(where, problem, _description(path))
+        yield problem["loc"], text
 
 
-def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[str]:
+def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[Problem]:
     """Yield names of wheels and bearings that the train does not have."""
-    wheels = [wheel.name for wheel in train.wheels]
-    bearings = [bearing.name for bearing in train.bearings]
+    wheels = {wheel.name: "wheel" for wheel in train.wheels}
+    bearings = {bearing.name: "bearing" for bearing in train.bearings}
+    others = wheels | bearings | {coupling.name: "coupling" for coupling in train.couplings}
+
+    def unknown(name: str, kind: str, allowed: Iterable[str]) -> str:
+        other = f" ({name!r} is a {others[name]})" if name in others else ""
+        return f"no such {kind}{other}; {choice(name, allowed)}"
+
     for name in _table(raw, "depth_at"):
         if name not in bearings:
-            yield f"depth_at.{name}: no such bearing; {_choice(name, bearings)}"
+            yield ("depth_at", name), f"depth_at.{name}: {unknown(name, 'bearing', bearings)}"
     for name in _table(_table(raw, "unbalance"), "at"):
         if name not in wheels:
-            yield f"unbalance.at.{name}: no such wheel; {_choice(name, wheels)}"
+            yield ("unbalance", "at", name), f"unbalance.at.{name}: {unknown(name, 'wheel', wheels)}"
     analysed = raw.get("analysed_bearing")
     if isinstance(analysed, str) and analysed not in bearings:
-        yield f"analysed_bearing = {analysed!r}: no such bearing; {_choice(analysed, bearings)}"
+        text = unknown(analysed, "bearing", bearings)
+        yield ("analysed_bearing",), f"analysed_bearing = {analysed!r}: {text}"
     wheel = _table(raw, "event").get("wheel")
     if isinstance(wheel, str) and wheel not in wheels:
-        yield f"event.wheel = {wheel!r}: no such wheel; {_choice(wheel, wheels)}"
+        yield ("event", "wheel"), f"event.wheel = {wheel!r}: {unknown(wheel, 'wheel', wheels)}"
 
 
-def time_problems(scenario: Scenario, train: Train) -> Iterator[str]:
+def unbalance_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield unbalances that are more than the whole wheel has at its radius."""
+    given: list[tuple[tuple[str, ...], str, float]] = [
+        (("unbalance", "at", name), name, at.unbalance) for name, at in scenario.unbalance.at.items()
+    ]
+    if scenario.event is not None:
+        given.append((("event",), scenario.event.wheel, scenario.event.unbalance))
+    wheels = {wheel.name: wheel for wheel in train.wheels}
+    for location, name, unbalance in given:
+        wheel = wheels.get(name)
+        most = 0.5 * wheel.mass * wheel.mean_diameter if wheel else 0.0
+        if 0.0 < most < unbalance:
+            yield (
+                (*location, "unbalance"),
+                f"{'.'.join(location)}.unbalance = {unbalance!r}; allowed is at most {most:.4g} kg m, all of "
+                f"wheel {name!r} at its mean radius; did you give kg mm?",
+            )
+
+
+def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
     """Yield contradictions between the times of the scenario and of the train."""
     longest = 2.0 * math.pi / train.speed / STEPS_PER_REVOLUTION
     if scenario.step > longest:
         yield (
+            ("step",),
             f"step = {scenario.step!r}; allowed is at most a tenth of a revolution of train "
-            f"{train.name!r}, {longest:.3g} s"
+            f"{train.name!r}, {longest:.3g} s",
         )
     if scenario.step > scenario.end:
-        yield f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
+        yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
     if scenario.event is not None and scenario.event.time >= scenario.end:
         yield (
+            ("event", "time"),
             f"event.time = {scenario.event.time!r}; allowed is a time before the end, {scenario.end!r} s "
-            "(take out [event] for a run without blade fracture)"
+            "(take out [event] for a run without blade fracture)",
+        )
+    size = record_size(scenario, train)
+    memory = _memory()
+    if size > memory:
+        interval = max(scenario.record.interval, scenario.step) * size / memory
+        yield (
+            ("end",),
+            f"end = {scenario.end!r}; its record takes {size / 1e9:.3g} GB, and this machine has "
+            f"{memory / 1e9:.3g}; allowed is an earlier end, or a record.interval from {interval:.2g} s on",
         )
 
 
-def _choice(given: str, allowed: Iterable[str]) -> str:
-    """Say what is allowed, with the closest of it first if it is close."""
-    names = list(allowed)
-    folded = {name.casefold(): name for name in names}
-    close = difflib.get_close_matches(given.casefold(), folded, n=1)
-    hint = f"did you mean {folded[close[0]]!r}? " if close else ""
-    return f"{hint}allowed are {', '.join(names)}"
+def record_size(scenario: Scenario, train: Train) -> float:
+    """Bytes of the record of a run."""
+    samples = scenario.end / max(scenario.record.interval, scenario.step)
+    return samples * (len(train.bearings) * _BYTES_AT_BEARING + train.nodes * _BYTES_AT_NODE)
 
 
-def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[str]:
+def _memory() -> float:
+    """Bytes of the machine, or no limit where it does not tell."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return math.inf
+
+
+def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
     """Yield FMUs of the user that are not there."""
     for name, depth in _table(raw, "depth_at").items():
         if isinstance(depth, str) and is_fmu(depth) and not (folder / depth).is_file():
-            yield f"depth_at.{name} = {depth!r}: no such file"
+            yield ("depth_at", name), f"depth_at.{name} = {depth!r}: no such file"
 
 
 def _literals(path: list[str]) -> tuple[str, ...]:
@@ -108,6 +141,12 @@ def _literals(path: list[str]) -> tuple[str, ...]:
         return allowed
     literal, *_ = typing.get_args(allowed[-1])  # a table whose values are depths or files
     return (*typing.get_args(literal), "the path of an .fmu file")
+
+
+def _description(path: list[str]) -> str | None:
+    """Unit and usual slip of a key."""
+    model, key = _owner(path)
+    return model.model_fields[key].description if model and key == path[-1] else None
 
 
 def _table(raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:

@@ -96,7 +96,7 @@ def _path_of(name_or_path: str | Path) -> Path:
     if not path.is_file():
         raise TrainFileError(
             [
-                f"{name_or_path}: no such train; {choice(str(name_or_path), bundled_trains())}, which are "
+                f"{name_or_path}: no such train; {choice(path.name, bundled_trains())}, which are "
                 "bundled, or the path of a folder with train.toml and shaft.csv"
             ]
         )

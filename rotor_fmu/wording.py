@@ -34,7 +34,9 @@ def choice(given: str, allowed: Iterable[str]) -> str:
     """Say which names are allowed, with the closest of them first if it is close."""
     names = list(allowed)
     folded = {name.casefold(): name for name in names}
-    close = difflib.get_close_matches(given.casefold(), folded, n=1)
+    given = given.casefold()
+    close = difflib.get_close_matches(given, folded, n=1)
+    close = close or [name for name in folded if given and name.startswith(given)]
     hint = f"did you mean {folded[close[0]]!r}? " if close else ""
     return f"{hint}allowed are {', '.join(names)}"
 

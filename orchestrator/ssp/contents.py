@@ -230,8 +230,8 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     try:
         scenario = Scenario(**values)
     except ValidationError as error:
-        raise ScenarioError(str(path), list(shape_problems(error))) from None
-    problems = [*time_problems(scenario, train), *_speed_problems(contents)]
+        raise ScenarioError(str(path), [text for _, text in shape_problems(error)]) from None
+    problems = [text for _, text in time_problems(scenario, train)] + list(_speed_problems(contents))
     if problems:
         raise ScenarioError(str(path), problems)
     return scenario

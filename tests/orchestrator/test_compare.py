@@ -176,7 +176,7 @@ def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
     [
         (["--bearing", "middle"], "analysed_bearing = 'middle': no such bearing"),
         (["--columns", "4"], "film.columns = 4"),
-        (["--rows", "40", "--check"], "film.rows = 80"),
+        (["--rows", "20", "--check"], "film.rows = 40"),
         (["--out", "short.toml"], "is a file"),
         (["--jobs", "0"], "--jobs"),
     ],

@@ -42,7 +42,7 @@ z = 1.0
 mass = {WHEEL_MASS}
 polar_inertia = 1.0
 transverse_inertia = 1.0
-mean_diameter = 1.0
+mean_diameter = 10.0
 balance_factor = {WHEEL_MASS / (WHEEL_MASS + SHAFT_MASS)}
 """
 SHAFT = "length,outer_diameter,inner_diameter,material\n" + 3 * "1.0,0.8,0.0,steel\n"

@@ -14,8 +14,8 @@ __all__ = ["folder"]
 CHECKS, SCHEMA = "rotor_fmu/train_checks.py", "rotor_fmu/train_schema.py"
 
 
-def case(old, new, line, words, *mark, broken):
-    return pytest.param(old, new, line, words, marks=fault("input", *mark, broken=broken))
+def case(old, new, line, words, name, outcome, *, broken):
+    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, broken=broken))
 
 
 IN_TRAIN = [

@@ -1,0 +1,186 @@
+"""What a scenario may not ask for: each fault with line, key, value, what is allowed, the likely spelling."""
+
+import pytest
+
+from orchestrator.errors import ScenarioError
+from orchestrator.scenario_file import load_scenario, parse_scenario
+from orchestrator.scenario_problems import record_size
+from rotor_fmu.train_file import load_train
+from tests.faults import fault
+
+TEXT = """\
+train = "small"
+end = 0.2
+step = 1e-4
+depth = "v1"
+coupling = "linear-implicit"
+
+[event]
+wheel = "wheel-2"
+unbalance = 0.5
+time = 0.1
+phase = 0.0
+
+[film]
+rows = 8
+
+[record]
+interval = 5e-4
+"""
+PROBLEMS, MODEL = "orchestrator/scenario_problems.py", "orchestrator/scenario.py"
+
+
+def case(old, new, line, words, name, outcome, *, broken):
+    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, broken=broken))
+
+
+CASES = [
+    case(
+        'wheel = "wheel-2"', 'wheel = "front"', 8,
+        "event.wheel = 'front': no such wheel ('front' is a bearing); allowed are wheel-1, wheel-2, wheel-3",
+        "a blade lost from what is no wheel", "exit 2; line, what it is instead, all wheels",
+        broken=(PROBLEMS, "if isinstance(wheel, str) and wheel not in wheels:", "if False:"),
+    ),
+    case(
+        "[film]", "[unbalance.at.front]\nunbalance = 0.1\n[film]", 13,
+        "unbalance.at.front: no such wheel ('front' is a bearing); allowed are wheel-1, wheel-2, wheel-3",
+        "an unbalance on a node that is no wheel", "exit 2; line, what it is instead, all wheels",
+        broken=(PROBLEMS, "        if name not in wheels:", "        if False:"),
+    ),
+    case(
+        "[film]", '[depth_at]\nfrnt = "v2"\n[film]', 14,
+        "depth_at.frnt: no such bearing; did you mean 'front'? allowed are front, rear",
+        "a misspelt bearing", "exit 2; line, the likely spelling, all bearings",
+        broken=(PROBLEMS, "        if name not in bearings:", "        if False:"),
+    ),
+    case(
+        "[film]", '[depth_at]\nfront = "own.fmu"\n[film]', 14, "depth_at.front = 'own.fmu': no such file",
+        "a bearing's FMU that is not there", "exit 2; line, key, path",
+        broken=(PROBLEMS, "and is_fmu(depth) and not (folder / depth).is_file()", "and False"),
+    ),
+    case(
+        "step = 1e-4", "step = 2.1e-3", 3,
+        "step = 0.0021; allowed is at most a tenth of a revolution of train 'small', 0.002 s",
+        "a step longer than a tenth of a revolution", "exit 2; line, value, the longest step",
+        broken=(PROBLEMS, "if scenario.step > longest:", "if False:"),
+    ),
+    case(
+        "end = 0.2", "end = 5e-5", 3, "step = 0.0001; allowed is at most the end time, 5e-05 s",
+        "a step longer than the run", "exit 2; line, value, the end time",
+        broken=(PROBLEMS, "if scenario.step > scenario.end:", "if False:"),
+    ),
+    case(
+        "end = 0.2", "end = 0.1", 10, "event.time = 0.1; allowed is a time before the end, 0.1 s",
+        "an end before the event", "exit 2; line, both times, how to run without the event",
+        broken=(PROBLEMS, " and scenario.event.time >= scenario.end:", " and False:"),
+    ),
+    case(
+        "unbalance = 0.5", "unbalance = 1000.0", 9,
+        "event.unbalance = 1000.0; allowed is at most 900 kg m, all of wheel 'wheel-2' at its mean radius;",
+        "a blade heavier than its wheel", "exit 2; line, value, the wheel's mass times its radius, the slip",
+        broken=(PROBLEMS, "if 0.0 < most < unbalance:", "if False:"),
+    ),
+    case(
+        "phase = 0.0", "phase = -45", 11,
+        "event.phase = -45; allowed is a number of at least -6.3 rad; did you give degrees?",
+        "the phase of the blade in degrees", "exit 2; line, value, range, the likely slip",
+        broken=(MODEL, "Field(ge=-6.3, le=6.3,", "Field("),
+    ),
+    case(
+        "[film]", "[unbalance]\ngrade = 2.5\n[film]", 14,
+        "unbalance.grade = 2.5; allowed is a number of at most 0.1 m/s; G2.5 is 2.5e-3",
+        "a scenario's balance grade in mm/s", "exit 2; line, value, range, what G2.5 is",
+        broken=(MODEL, "Field(ge=0.0, le=0.1,", "Field(ge=0.0,"),
+    ),
+    case(
+        "rows = 8", "rows = 31", 14, "film.rows = 31; allowed is a number of at most 30",
+        "a film resolution that the bearings refuse", "exit 2; line, value, range",
+        broken=(MODEL, "Field(ge=3, le=30)", "Field(ge=3, le=64)"),
+    ),
+    case(
+        "step = 1e-4", "step = nan", 3, "step = nan; allowed is a finite number",
+        "a number that is none", "exit 2; line, key, value",
+        broken=(MODEL, "Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]", "Positive = float"),
+    ),
+    case(
+        'coupling = "linear-implicit"', 'coupling = "linear"', 5,
+        "coupling = 'linear'; did you mean 'linear-implicit'?",
+        "a misspelt coupling", "exit 2; line, the likely spelling, all couplings",
+        broken=(PROBLEMS, 'elif kind == "literal_error":', "elif False:"),
+    ),
+    case(
+        "[film]", "[flim]", 13, "flim: unknown key; did you mean 'film'? allowed are title, train,",
+        "a misspelt table", "exit 2; line, the likely spelling, all keys",
+        broken=(MODEL, 'extra="forbid"', 'extra="ignore"'),
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "line", "words"), CASES)
+def test_a_fault_in_the_scenario(tmp_path, old, new, line, words):
+    assert old in TEXT
+    with pytest.raises(ScenarioError) as info:
+        parse_scenario(TEXT.replace(old, new, 1), tmp_path, "my.toml")
+    assert any(found.startswith(f"line {line}: {words}") for found in info.value.problems), (
+        info.value.problems
+    )
+    assert (
+        "no such train; did you mean 'small'? allowed are small, turbine" in str(info.value)
+        or "smal'" not in new
+    )
+
+
+@fault(
+    "input",
+    "a record larger than the memory of the machine",
+    "exit 2; both sizes, an earlier end or the interval that fits",
+    broken=(PROBLEMS, "    if size > memory:", "    if False:"),
+)
+def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
+    scenario = parse_scenario(TEXT, tmp_path, "my.toml")
+    train = load_train("small")
+    size = record_size(scenario, train)
+    assert size == pytest.approx(400 * (2 * 240 + train.nodes * 16))
+    monkeypatch.setattr("orchestrator.scenario_problems._memory", lambda: size / 3)
+    with pytest.raises(ScenarioError) as info:
+        parse_scenario(TEXT, tmp_path, "my.toml")
+    (problem,) = info.value.problems
+    assert problem.startswith("line 2: end = 0.2; its record takes ") and "from 0.0015 s on" in problem
+
+
+@fault(
+    "input",
+    "a train that does not exist",
+    "exit 2; line, the likely name, all bundled trains",
+    broken=("rotor_fmu/train_file.py", "no such train; {choice(path.name, bundled_trains())}", "no such train"),
+)
+def test_a_train_that_does_not_exist(tmp_path):
+    words = r"^my.toml: line 1: train = 'smal': .*smal: no such train; did you mean 'small'\? allowed are small, turb"
+    with pytest.raises(ScenarioError, match=words):
+        parse_scenario(TEXT.replace('"small"', '"smal"'), tmp_path, "my.toml")
+
+
+@fault(
+    "input",
+    "a scenario that does not exist",
+    "exit 2; the likely name, all bundled scenarios",
+    broken=("orchestrator/scenario_file.py", "elif not path.exists():", "elif False:"),
+)
+def test_a_scenario_that_does_not_exist():
+    with pytest.raises(
+        ScenarioError, match=r"papr: no such scenario; did you mean 'paper'\? allowed are paper, small"
+    ):
+        load_scenario("papr")
+
+
+def test_a_value_given_as_an_option_has_no_line(tmp_path):
+    """It stands in no line of the file; the others keep theirs."""
+    (tmp_path / "my.toml").write_text(TEXT.replace("rows = 8", "rows = 1"))
+    with pytest.raises(ScenarioError) as info:
+        load_scenario(
+            tmp_path / "my.toml", {"end": -1.0, "event": {"phase": 90.0}, "depth_at": {"frnt": "v2"}}
+        )
+    starts = ("end = -1.0", "event.phase = 90.0", "line 14: film.rows = 1", "depth_at.frnt: no such bearing")
+    assert len(info.value.problems) == len(starts)
+    for start in starts:
+        assert any(found.startswith(start) for found in info.value.problems)
