@@ -14,11 +14,23 @@ from typing import Annotated, Any
 import typer
 
 from orchestrator import cli_compare, cli_linear, cli_resume, cli_ssp
-from orchestrator.cli_options import Coupling, Depth, Format, Reduction, Trust, guarded
+from orchestrator.cli_errors import Commands, WrongChoice, one_of
+from orchestrator.cli_options import (
+    Coupling,
+    Depth,
+    FigureFormats,
+    Format,
+    GivenDepth,
+    Reduction,
+    Trust,
+    guarded,
+)
 from orchestrator.exit_status import status_lines
+from rotor_fmu.wording import choice
 
 app = typer.Typer(
     name="bladeloss",
+    cls=Commands,
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode="rich",
@@ -83,10 +95,7 @@ def run(
     scenario: Annotated[
         str, typer.Argument(help="A bundled scenario (see [bold]bladeloss info[/bold]), a TOML or SSP file.")
     ] = "paper",
-    depth: Annotated[
-        Depth | None,
-        typer.Option(help="All bearings: v1 Reynolds with misalignment, v2 aligned, v3 short bearing."),
-    ] = None,
+    depth: GivenDepth = None,
     depth_at: Annotated[
         list[str] | None,
         typer.Option(metavar="NAME=DEPTH", help="One bearing: LP2-front=v2, or your own FMU; repeatable."),
@@ -95,6 +104,7 @@ def run(
         Coupling | None,
         typer.Option(
             metavar="NAME",
+            parser=one_of(Coupling, "--coupling"),
             help="linear-implicit (affine law); iterated: newton, iqn-ils; to compare, explicit and force "
             "only: gauss-seidel, jacobi.",
         ),
@@ -108,7 +118,11 @@ def run(
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
     reduction: Annotated[
         Reduction | None,
-        typer.Option(metavar="NAME", help="Of the shaft: irs, irs-plain, guyan, craig-bampton or none."),
+        typer.Option(
+            metavar="NAME",
+            parser=one_of(Reduction, "--reduction"),
+            help="Of the shaft: irs, irs-plain, guyan, craig-bampton or none.",
+        ),
     ] = None,
     bearing: Annotated[
         str | None,
@@ -130,10 +144,7 @@ def run(
         typer.Option(min=1, metavar="N", help="For the bearings; by default 2 where that pays."),
     ] = None,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
-    figure_format: Annotated[
-        list[Format] | None,
-        typer.Option("--format", metavar="TYPE", help="Of the figures: png (default), pdf, svg; repeatable."),
-    ] = None,
+    figure_format: FigureFormats = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
     trust: Trust = False,
 ) -> None:
@@ -222,11 +233,8 @@ def _assignments(items: list[str]) -> dict[str, str]:
         name, equals, depth = (part.strip() for part in item.partition("="))
         fmu = depth.endswith(".fmu")
         if not (name and equals and (fmu or depth in list(Depth))):
-            allowed = ", ".join(Depth)
-            raise typer.BadParameter(
-                f"{item!r} is not NAME=DEPTH with a depth of {allowed}, or the path of an .fmu file",
-                param_hint="--depth-at",
-            )
+            allowed = choice(depth, (*Depth, "the path of an .fmu file"))
+            raise WrongChoice(f"--depth-at {item}: not NAME=DEPTH; of depths {allowed}")
         found[name] = str(Path(depth).absolute()) if fmu else depth
     return found
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator.cli_options import Format, guarded
+from orchestrator.cli_options import FigureFormats, Format, guarded
 
 COMPARE_HELP = (
     "Run a scenario with V1, V2 and V3 and hold the results against the paper.\n\n"
@@ -61,10 +61,7 @@ def compare(
         Path | None, typer.Option(metavar="DIR", help="Results; by default results/<SCENARIO>-compare.")
     ] = None,
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
-    figure_format: Annotated[
-        list[Format] | None,
-        typer.Option("--format", metavar="TYPE", help="Of the figures: png (default), pdf, svg; repeatable."),
-    ] = None,
+    figure_format: FigureFormats = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
 ) -> None:
     """Compare the depths, see `COMPARE_HELP`."""

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from orchestrator.cli_options import Depth, Format, Trust, guarded
+from orchestrator.cli_errors import one_of
+from orchestrator.cli_options import Depth, FigureFormats, Format, Trust, guarded
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,17 +24,18 @@ Source = Annotated[
     ),
 ]
 FilmDepth = Annotated[
-    Depth | None, typer.Option(help="Of the films that are linearised; by default the scenario's.")
+    Depth | None,
+    typer.Option(
+        metavar="v1|v2|v3",
+        parser=one_of(Depth, "--depth"),
+        help="Of the films that are linearised; by default the scenario's.",
+    ),
 ]
 Out = Annotated[
     Path | None,
     typer.Option(metavar="DIR", help="Results; by default results/<NAME>-<COMMAND>."),
 ]
 Fmus = Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs, from which K and C come.")]
-Formats = Annotated[
-    list[Format] | None,
-    typer.Option("--format", metavar="TYPE", help="Of the figure: png (default), pdf, svg; repeatable."),
-]
 Highest = Annotated[
     float, typer.Option("--to", metavar="HZ", min=1.0, max=1000.0, help="Highest speed of rotation.")
 ]
@@ -90,7 +92,7 @@ def campbell(
     depth: FilmDepth = None,
     out: Out = None,
     fmus: Fmus = Path("fmus"),
-    formats: Formats = None,
+    formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
     """Campbell diagram, see `CAMPBELL_HELP`."""
@@ -112,7 +114,7 @@ def modes(
     depth: FilmDepth = None,
     out: Out = None,
     fmus: Fmus = Path("fmus"),
-    formats: Formats = None,
+    formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
     """Mode shapes, see `MODES_HELP`."""
@@ -131,7 +133,7 @@ def harmonic(
     depth: FilmDepth = None,
     out: Out = None,
     fmus: Fmus = Path("fmus"),
-    formats: Formats = None,
+    formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
     """Unbalance response, see `HARMONIC_HELP`."""

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from orchestrator.cli_errors import one_of
+
 Trust = Annotated[
     bool,
     typer.Option("--trust", help="Run FMUs that bladeloss did not build: native code, with all your rights."),
@@ -48,6 +50,25 @@ class Format(StrEnum):
     PNG = "png"
     PDF = "pdf"
     SVG = "svg"
+
+
+GivenDepth = Annotated[
+    Depth | None,
+    typer.Option(
+        metavar="v1|v2|v3",
+        parser=one_of(Depth, "--depth"),
+        help="All bearings: v1 Reynolds with misalignment, v2 aligned, v3 short bearing.",
+    ),
+]
+FigureFormats = Annotated[
+    list[Format] | None,
+    typer.Option(
+        "--format",
+        metavar="TYPE",
+        parser=one_of(Format, "--format"),
+        help="Of the figures: png (default), pdf, svg; repeatable.",
+    ),
+]
 
 
 def guarded(work: Callable[[], int]) -> None:

@@ -25,6 +25,7 @@ from orchestrator.simulate import Execution, Result, default_threads, simulate
 from orchestrator.summary import RunSummary, summarise
 from orchestrator.summary_table import SummaryTable, to_text
 from orchestrator.trust import own_bearings, require_trust
+from rotor_fmu.wording import choice
 
 if TYPE_CHECKING:
     from orchestrator.checkpoint import Checkpoint
@@ -152,7 +153,7 @@ def check_bearing(request: RunRequest, train: Train) -> None:
     names = [seat.name for seat in train.bearings]
     if request.bearing is not None and request.bearing not in names:
         raise OrchestratorError(
-            f"--bearing {request.bearing}: unknown bearing; allowed are {', '.join(names)}"
+            f"--bearing {request.bearing}: no such bearing; {choice(request.bearing, names)}"
         )
 
 

@@ -32,7 +32,7 @@ _LONGEST = 60
 
 def choice(given: str, allowed: Iterable[str]) -> str:
     """Say which names are allowed, with the closest of them first if it is close."""
-    names = list(allowed)
+    names = [str(name) for name in allowed]
     folded = {name.casefold(): name for name in names}
     given = given.casefold()
     close = difflib.get_close_matches(given, folded, n=1)
