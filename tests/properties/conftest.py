@@ -1,4 +1,4 @@
-"""How much hypothesis draws: the same examples each time, or with HYPOTHESIS_PROFILE=explore others, and more."""
+"""How much hypothesis draws: always the same, or other and more examples with HYPOTHESIS_PROFILE=explore."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Films of bearings and states as they come: consistent, symmetric, dissipative, similar, or a named status."""
+"""Films in any bearing and state: consistent, symmetric, dissipative, similar, or a named status."""
 
 import math
 
