@@ -19,8 +19,12 @@ from scipy.linalg import lapack
 from rotor_fmu.condensation import Equilibrium
 from rotor_fmu.modal_shaft import ModalShaft
 from rotor_fmu.state_space import StepMaps, journal_output
+from rotor_fmu.whirl_plane import WhirlPlane, alike
 
 Array = NDArray[np.float64]
+
+HARMONICS = 2
+"""Harmonic inputs of a step: the nominal unbalance and the lost blade's."""
 
 
 class StepFailure(ArithmeticError):
@@ -40,18 +44,19 @@ class AffineStep:
         states, loads, n_b = 2 * shaft.size, len(shaft.bearing), shaft.bearings
         self._output = journal_output(shaft)
         # Views share memory: what is written to one is read as the other.
-        self._entry = np.zeros(states + loads + 4)
+        self._entry = np.zeros(states + loads + 2 * HARMONICS)
         self._start, self._wrench, self._rotation = np.split(self._entry, [states, states + loads])
         self._law = np.zeros((n_b, 4, 8))
         self._matrix = np.zeros((n_b, 4, loads))
         self._square = self._matrix.reshape(loads, loads)
         self._diagonal = self._square.reshape(-1)[:: loads + 1]
-        self._journals = np.zeros(8 * n_b)
+        self._plane = WhirlPlane(shaft.bearing, HARMONICS) if alike(shaft.bearing) else None
         self._reaction = np.zeros((n_b, 4, 1))
 
     def journals(self, state: Array, static: Equilibrium[np.float64]) -> Array:
         """Journal displacements and velocities (q, v) at a state, (n_b, 8)."""
-        y = (self._output @ state).reshape(-1, 8)
+        moved = self._output @ state if self._plane is None else self._plane.journals(state)
+        y = moved.reshape(-1, 8)
         y[:, :4] += static.journals.reshape(-1, 4)
         return y
 
@@ -101,30 +106,46 @@ class AffineStep:
         StepFailure
             If the law has no solution at the end of the step, or numbers are not finite.
         """
-        self._start[:] = state
-        self._rotation[:] = rotation
         offset = F0.reshape(-1) - static.wrench
-        wrench = self._wrench
-        np.subtract(offset, self._react(journals), out=wrench)
-        np.dot(maps.free, self._entry, out=out)
+        self._free(maps, state, offset - self._react(journals), rotation, out)
         if kick is not None:
             out += kick
 
-        np.dot(self._output, out, out=self._journals)
-        end = self._journals.reshape(-1, 8)
-        end[:, :4] += static.journals.reshape(-1, 4)
-        np.subtract(offset, self._react(end), out=wrench)
+        wrench = offset - self._react(self.journals(out, static))
         np.matmul(self._law, maps.compliance, out=self._matrix)
         self._diagonal += 1.0
         # The matrix is stored by rows, LAPACK reads columns: factor the transpose, solve transposed.
         factor, pivots, info = lapack.dgetrf(self._square.T, overwrite_a=1)
         if info == 0:
             wrench, info = lapack.dgetrs(factor, pivots, wrench, trans=1)
-        out += np.dot(maps.wrench_end, wrench)
+        self._add_end(maps, wrench, out)
         if info != 0 or not np.isfinite(np.dot(out, out)):
             raise StepFailure(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
+
+    def _free(
+        self,
+        maps: StepMaps,
+        state: Array,
+        wrench: Array,
+        rotation: tuple[float, float, float, float],
+        out: Array,
+    ) -> None:
+        """The end state under the wrenches of the start, which end with the step."""
+        if self._plane is not None and maps.whirl is not None:
+            self._plane.free(maps.whirl, state, wrench, rotation, out)
+            return
+        self._start[:] = state
+        self._wrench[:] = wrench
+        self._rotation[:] = rotation
+        np.dot(maps.free, self._entry, out=out)
+
+    def _add_end(self, maps: StepMaps, wrench: Array, out: Array) -> None:
+        if self._plane is not None and maps.whirl is not None:
+            self._plane.add_end(maps.whirl, wrench, out)
+        else:
+            out += np.dot(maps.wrench_end, wrench)
 
     def _react(self, journals: Array) -> Array:
         """L y: what stiffness and damping take off F0."""

@@ -74,6 +74,10 @@ class FieldMap:
             # A bending plane sees its own modes only, which are neighbours.
             columns = slice(int(used[0]), int(used[-1]) + 1) if len(used) else slice(0, 0)
             self._planes.append((columns, np.ascontiguousarray(full[:, columns])))
+        (columns_x, of_x), (columns_y, of_y) = self._planes
+        follows = columns_x.start == 0 and columns_y == slice(columns_x.stop, 2 * columns_x.stop)
+        # Of a circular shaft both planes are the same matrix, which is then read once for both.
+        self._common = of_x if follows and np.array_equal(of_x, of_y) else None
         self._flexibility = (1.0 / bending.modulus).ravel()
         self._static: Equilibrium[np.float64] | None = None
         self._static_moments = np.zeros((2, 2 * nodes))
@@ -113,8 +117,10 @@ class FieldMap:
         if static is not self._static:
             moments = self._bending.moments(static.shape, self._gravity)
             self._static, self._static_moments = static, moments.reshape(2, -1)
-        (columns_x, plane_x), (columns_y, plane_y) = self._planes
-        in_x, in_y = plane_x @ displacement[columns_x], plane_y @ displacement[columns_y]
+        if self._common is not None:
+            in_x, in_y = displacement[: 2 * self._common.shape[1]].reshape(2, -1) @ self._common.T
+        else:
+            in_x, in_y = (plane @ displacement[columns] for columns, plane in self._planes)
         n = self._nodes
         in_x[n:] += self._static_moments[0]
         in_y[n:] += self._static_moments[1]

@@ -21,6 +21,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from rotor_fmu.modal_shaft import ModalShaft
+from rotor_fmu.whirl_plane import WhirlMaps, alike, whirl_maps
 
 Array = NDArray[np.float64]
 
@@ -37,11 +38,14 @@ class StepMaps:
         End state from the wrenches w1 at the end.
     compliance : ndarray, (n_b, 8, 4 n_b)
         S: journal displacements and velocities at the end from w1.
+    whirl : WhirlMaps or None
+        The first two in the complex plane, where the bending planes are alike.
     """
 
     free: Array
     wrench_end: Array
     compliance: Array
+    whirl: WhirlMaps | None
 
 
 def state_matrix(shaft: ModalShaft, speed: float) -> Array:
@@ -90,7 +94,8 @@ def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> 
     free = np.hstack([state[:, : 2 * m + loads], state[:, 2 * m + 2 * loads :]])
     free[:, 2 * m : 2 * m + loads] -= end
     compliance = journal_output(shaft) @ end
-    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads))
+    whirl = whirl_maps(free, end) if alike(shaft.bearing) else None
+    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads), whirl)
 
 
 def harmonic_map(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> Array:
