@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -57,6 +58,17 @@ def stage(function: _Function) -> _Function:
 
 
 def _compile(function: _Function, more: dict[str, Any]) -> _Function:
-    dispatcher: Any = njit(**_OPTIONS, **more)(function)
-    dispatcher._cache._cache_file._source_stamp = _SOURCES
+    try:
+        dispatcher: Any = njit(**_OPTIONS, **more)(function)
+    except RuntimeError:  # no folder to keep compiled code in: compile in every process
+        return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
+    cache = dispatcher._cache
+    cache._cache_file._source_stamp = _SOURCES
+    save = cache.save_overload
+
+    def save_if_possible(*arguments: Any) -> None:
+        with suppress(OSError):  # disk full: compiled it is all the same
+            save(*arguments)
+
+    cache.save_overload = save_if_possible
     return dispatcher  # type: ignore[no-any-return]

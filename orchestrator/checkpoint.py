@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, Protocol
@@ -113,11 +113,14 @@ class Checkpoints:
         Simulated time from one to the next in s.
     about : mapping
         Kept with it, see `Checkpoint.about`.
+    warn : callable
+        Told of a checkpoint that could not be written.
     """
 
     folder: Path
     every: float
     about: Mapping[str, Any]
+    warn: Callable[[str], None] = print
     _last: float = float("-inf")
 
     def save(
@@ -127,13 +130,23 @@ class Checkpoints:
         stepper: Stepper,
         keepers: Mapping[str, Keeper],
         start: Start,
+        *,
+        last: bool = False,
     ) -> None:
-        """Write the run as it stands at the end of a macro step, if a checkpoint is due."""
+        """Write the run as it stands at the end of a macro step, if a checkpoint is due or the `last`.
+
+        The first must succeed; later ones may fail, for want of room, without harm to the run or to the
+        checkpoint before.
+
+        Raises
+        ------
+        CheckpointError
+            When the first cannot be written.
+        """
         step, time = instant
         # Half a millionth of the interval forgives the rounding of instants.
-        if time < self._last + self.every * (1.0 - 5e-7):
+        if not last and time < self._last + self.every * (1.0 - 5e-7):
             return
-        self._last = time
         meta = {
             "version": _VERSION,
             "step": step,
@@ -151,7 +164,14 @@ class Checkpoints:
         arrays |= {f"scheme.{name}": value for name, value in stepper.scheme.memory.items()}
         for keeper, watching in keepers.items():
             arrays |= {f"{keeper}.{name}": value for name, value in watching.arrays().items()}
-        write(self.folder / FILE, meta, arrays)
+        path = self.folder / FILE
+        try:
+            write(path, meta, arrays)
+        except OSError as error:
+            if self._last == float("-inf"):
+                raise CheckpointError(f"{path}: cannot be written: {error}") from None
+            self.warn(f"{path}: no checkpoint at t = {time:.6g} s, the one before stays: {error}")
+        self._last = time
 
 
 def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
@@ -159,11 +179,14 @@ def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     fresh = path.with_name(path.name + ".part")
     text = np.frombuffer(json.dumps(meta).encode(), dtype=np.uint8)
-    with fresh.open("wb") as file:
-        np.savez(file, meta=text, **arrays)  # type: ignore[arg-type]
-        file.flush()
-        os.fsync(file.fileno())
-    fresh.replace(path)
+    try:
+        with fresh.open("wb") as file:
+            np.savez(file, meta=text, **arrays)  # type: ignore[arg-type]
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(path)
+    finally:
+        fresh.unlink(missing_ok=True)
 
 
 def read(folder: Path) -> Checkpoint:

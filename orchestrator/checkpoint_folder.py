@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +23,11 @@ def checkpoint_folder(folder: Path) -> Path:
 
 
 def checkpoints(
-    scenario: Scenario, request: RunRequest, folder: Path, trusted: Sequence[str] = ()
+    scenario: Scenario,
+    request: RunRequest,
+    folder: Path,
+    trusted: Sequence[str] = (),
+    warn: Callable[[str], None] = print,
 ) -> Checkpoints | None:
     """What writes the checkpoints that a request asks for, with all that is needed to go on.
 
@@ -43,8 +47,9 @@ def checkpoints(
         "certify": request.certify,
         "threads": request.threads,
         "trusted": list(trusted),
+        "budget": request.budget,
     }
-    return Checkpoints(checkpoint_folder(folder), request.checkpoint, about)
+    return Checkpoints(checkpoint_folder(folder), request.checkpoint, about, warn)
 
 
 def discard(folder: Path) -> None:

@@ -16,6 +16,7 @@ import typer
 from orchestrator import cli_compare, cli_linear, cli_resume, cli_ssp
 from orchestrator.cli_errors import Commands, WrongChoice, one_of
 from orchestrator.cli_options import (
+    Budget,
     Coupling,
     Depth,
     FigureFormats,
@@ -147,6 +148,7 @@ def run(
     figure_format: FigureFormats = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
     trust: Trust = False,
+    budget: Budget = 60.0,
 ) -> None:
     """Simulate a scenario, see `RUN_HELP`."""
     overrides: dict[str, Any] = {
@@ -172,7 +174,7 @@ def run(
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
         request = RunRequest(
-            scenario, overrides, out, fmus, bearing, formats, checkpoint, certify, threads, trust
+            scenario, overrides, out, fmus, bearing, formats, checkpoint, certify, threads, trust, budget
         )
         return run_scenario(request, Console(), Console(stderr=True))
 

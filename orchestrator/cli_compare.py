@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator.cli_options import FigureFormats, Format, guarded
+from orchestrator.cli_options import Budget, FigureFormats, Format, guarded
 
 COMPARE_HELP = (
     "Run a scenario with V1, V2 and V3 and hold the results against the paper.\n\n"
@@ -63,6 +63,7 @@ def compare(
     fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
     figure_format: FigureFormats = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
+    budget: Budget = 60.0,
 ) -> None:
     """Compare the depths, see `COMPARE_HELP`."""
     film = {key: value for key, value in (("columns", columns), ("rows", rows)) if value is not None}
@@ -75,7 +76,7 @@ def compare(
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
         overrides = {key: value for key, value in given.items() if value is not None}
-        request = CompareRequest(scenario, overrides, out, fmus, jobs, check, formats)
+        request = CompareRequest(scenario, overrides, out, fmus, jobs, check, formats, budget)
         return run(request, Console(), Console(stderr=True))
 
     guarded(work)

@@ -15,6 +15,11 @@ Trust = Annotated[
     typer.Option("--trust", help="Run FMUs that bladeloss did not build: native code, with all your rights."),
 ]
 
+Budget = Annotated[
+    float,
+    typer.Option(min=0.0, metavar="SECONDS", help="Give up a unit that takes longer for a call; 0: never."),
+]
+
 
 class Depth(StrEnum):
     """Modelling depth of a bearing."""
@@ -73,20 +78,23 @@ FigureFormats = Annotated[
 
 def guarded(work: Callable[[], int]) -> None:
     """Do the work; an error of the input becomes its text on stderr and exit status 2."""
-    from orchestrator.errors import OrchestratorError
+    from orchestrator.errors import OrchestratorError, Terminated
     from orchestrator.exit_status import INPUT_ERROR, STATUS
+    from orchestrator.interrupt import handled, raise_at_once
     from orchestrator.outcome import Outcome
     from rotor_fmu.train_file import TrainFileError
 
     try:
-        status = work()
+        with handled(raise_at_once):
+            status = work()
     except (OrchestratorError, TrainFileError) as error:
         typer.secho(f"error: {error}", err=True, fg="red")
         status = INPUT_ERROR
     except OSError as error:
         typer.secho(f"error: {error}", err=True, fg="red")
         status = 1
-    except KeyboardInterrupt:
-        typer.secho("interrupted; nothing was written", err=True, fg="red")
-        status = STATUS[Outcome.INTERRUPTED]
+    except KeyboardInterrupt as error:
+        outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
+        typer.secho(f"{outcome.value}; nothing was written", err=True, fg="red")
+        status = STATUS[outcome]
     raise typer.Exit(status)

@@ -12,20 +12,29 @@ from rich.console import Console
 
 from orchestrator import exit_status
 from orchestrator.certify import at_half_step
+from orchestrator.claim import claim
 from orchestrator.comparison.processes import DIED, cores, run_all
 from orchestrator.comparison.progress import show_runs
 from orchestrator.comparison.report import Comparison, Settings, compare, to_csv, to_json
 from orchestrator.comparison.runs import gather
 from orchestrator.comparison.table import ComparisonTable, to_text
 from orchestrator.comparison.worker import Ended, Task, Work, simulate_task
-from orchestrator.figures.write import write_figures
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.outcome import Outcome
 from orchestrator.record_files import RECORD_FILE, read_record
-from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
+from orchestrator.result_files import NO_FIGURES, NotWrittenError, add_figures, room_for
+from orchestrator.result_folder import (
+    FIGURES,
+    PARTIAL,
+    check_folder,
+    partial_folder,
+    result_folder,
+    temporary_prefix,
+)
 from orchestrator.scenario import DEPTHS
 from orchestrator.scenario_file import load_scenario, train_of, with_overrides
 from orchestrator.statistics import analysed_bearing
+from orchestrator.watchdog import BUDGET
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,6 +69,8 @@ class CompareRequest:
         Repeat with twice the film resolution and half the macro step.
     formats : sequence of str
         File types of the figures; none for no figures.
+    budget : float
+        Wall time in s that a call to a unit may take; 0 for any.
     """
 
     source: str
@@ -69,6 +80,7 @@ class CompareRequest:
     jobs: int | None = None
     check: bool = False
     formats: Sequence[str] = ("png",)
+    budget: float = BUDGET
 
 
 @dataclass(frozen=True)
@@ -108,9 +120,9 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
     folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
     check_folder(folder, SIGN)
     ensure_fmus(request.fmus, train, set(DEPTHS), console)
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=f".{folder.name}-runs-", dir=folder.parent) as place:
-        runs = Path(place)
+    prefix, place = temporary_prefix(folder), folder.parent
+    with claim(folder), tempfile.TemporaryDirectory(prefix=prefix, dir=place) as temporary:
+        runs = Path(temporary)
         found = _compare(scenario, train, request, runs, console, work)
         fine = None
         if refined is not None and found.comparison.complete:
@@ -119,20 +131,21 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
         pair = found.comparison, fine.comparison if fine else None
         console.print(ComparisonTable(*pair))
         failed = [(name, end) for one in pair if one for name, end in one.ended.items() if not end.ok]
+        status = status_of(failed[0][1]) if failed else 0
         target = partial_folder(folder) if failed else folder
         if found.records:
-            with result_folder(target, _OURS) as fresh:
-                _write(pair, runs, fresh)
-    if found.records:
-        if request.formats:
-            bearing = found.comparison.runs.seat.name
-            with result_folder(target / FIGURES) as fresh:
-                write_figures(found.records, fresh, train=train, bearing=bearing, formats=request.formats)
-        kind = "Partial results" if failed else "Results"
-        console.print(f"\n{kind} in {target}", highlight=False, soft_wrap=True)
+            try:
+                with room_for(found.records, target):
+                    _write_all(pair, found.records, runs, target, train, request.formats)
+            except NotWrittenError as error:
+                status = exit_status.of_outcome(Outcome.NOT_WRITTEN)
+                errors.print(f"[red]error:[/red] {error}", highlight=False, soft_wrap=True)
+            else:
+                kind = "Partial results" if failed else "Results"
+                console.print(f"\n{kind} in {target}", highlight=False, soft_wrap=True)
     for name, end in failed:
         errors.print(f"[red]error:[/red] {name} not finished: {end.text()}", highlight=False, soft_wrap=True)
-    return status_of(failed[0][1]) if failed else 0
+    return status
 
 
 def refine(scenario: Scenario) -> Scenario:
@@ -156,7 +169,13 @@ def _compare(
     scenario: Scenario, train: Train, request: CompareRequest, folder: Path, console: Console, work: Work
 ) -> _Compared:
     tasks = [
-        Task(depth, with_overrides(scenario, {"depth": depth}), request.fmus.absolute(), folder / depth)
+        Task(
+            depth,
+            with_overrides(scenario, {"depth": depth}),
+            request.fmus.absolute(),
+            folder / depth,
+            request.budget,
+        )
         for depth in DEPTHS
     ]
     with show_runs(DEPTHS, scenario.end, console) as show:
@@ -170,6 +189,26 @@ def _compare(
     bearing = scenario.analysed_bearing or (analysed_bearing(left[0]) if left else train.bearings[0].name)
     runs = gather(records, unfinished, bearing, scenario, train)
     return _Compared(compare(scenario.title or scenario.train, _settings(scenario), runs, ended), left)
+
+
+def _write_all(
+    pair: tuple[Comparison, Comparison | None],
+    records: Sequence[xr.Dataset],
+    runs: Path,
+    folder: Path,
+    train: Train,
+    formats: Sequence[str],
+) -> None:
+    """Write the results: first the data, all or nothing, then the figures likewise."""
+    with result_folder(folder, _OURS) as fresh:
+        _write(pair, runs, fresh)
+        finished = not (fresh / PARTIAL).exists()
+        if formats and finished:
+            (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
+    if formats:
+        add_figures(records, folder, train, pair[0].runs.seat.name, formats)
+        if finished:
+            (folder / PARTIAL).unlink()
 
 
 def _write(pair: tuple[Comparison, Comparison | None], runs: Path, fresh: Path) -> None:

@@ -32,5 +32,9 @@ class PortError(OrchestratorError):
     """A unit that lacks variables of the port, or declares them differently."""
 
 
+class Terminated(KeyboardInterrupt):
+    """The process was told to end by SIGTERM; it ends as after Ctrl-C, with a status of its own."""
+
+
 class EquilibriumError(OrchestratorError):
     """No static equilibrium of the train on its films; the text names the bearing and the residual."""

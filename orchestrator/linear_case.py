@@ -16,6 +16,7 @@ from rich.table import Table
 
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.operating_point import OperatingPoint, operating_point
+from orchestrator.record_files import netcdf
 from orchestrator.result_folder import check_folder, result_folder
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import bundled_scenarios, load_scenario, scenario_toml, train_of
@@ -204,7 +205,7 @@ def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, fi
             described = dataset.assign_attrs(
                 {"train": case.train.name, "scenario": scenario_toml(case.scenario), **dataset.attrs}
             )
-            described.to_netcdf(fresh / f"{name}.nc", engine="h5netcdf")
+            (fresh / f"{name}.nc").write_bytes(netcdf(described))
             write_table(described, fresh / f"{name}.csv")
             written += [f"{name}.nc", f"{name}.csv"]
         with (fresh / f"{request.command}.txt").open("w", encoding="utf-8") as file:

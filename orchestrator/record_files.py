@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Callable, Iterator
+from io import BytesIO
 from pathlib import Path
 
+import h5netcdf
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from xarray.backends import H5NetCDFStore
 
 RECORD_FILE = "record.nc"
 TABLE_FILE = "record.csv"
@@ -31,12 +34,23 @@ def write_record(record: xr.Dataset, folder: Path) -> tuple[Path, Path]:
         The two files.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    numeric = [name for name, variable in record.variables.items() if variable.dtype.kind == "f"]
-    encoding = {name: {"zlib": True, "complevel": 1} for name in numeric}
     record_path, table_path = folder / RECORD_FILE, folder / TABLE_FILE
-    _write_whole(record_path, lambda path: record.to_netcdf(path, engine="h5netcdf", encoding=encoding))
+    _write_whole(record_path, lambda path: path.write_bytes(netcdf(record)))
     _write_whole(table_path, lambda path: _write_table(record, path))
     return record_path, table_path
+
+
+def netcdf(data: xr.Dataset) -> bytes:
+    """Return a dataset as the content of a NetCDF file, with its numbers compressed.
+
+    It is made in memory, because HDF5 writing to a disk that is full ends the process.
+    """
+    numeric = [name for name, variable in data.variables.items() if variable.dtype.kind == "f"]
+    encoding = {name: {"zlib": True, "complevel": 1} for name in numeric}
+    content = BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
+    return content.getvalue()
 
 
 def read_record(path: Path) -> xr.Dataset:

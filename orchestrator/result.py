@@ -12,6 +12,7 @@ import xarray as xr
 from orchestrator.checkpoint import Checkpoint, Checkpoints
 from orchestrator.outcome import Outcome
 from orchestrator.stepping import StepCounts
+from orchestrator.watchdog import Watchdog
 
 
 class Stage(StrEnum):
@@ -104,11 +105,14 @@ class Execution:
         Where to go on instead of at the start.
     threads : int
         On which the bearings step.
+    watchdog : Watchdog
+        Ends the run when a unit hangs; asleep by itself.
     """
 
     checkpoints: Checkpoints | None = None
     resume: Checkpoint | None = None
     threads: int = 1
+    watchdog: Watchdog = field(default_factory=Watchdog)
 
 
 class Stopwatch:

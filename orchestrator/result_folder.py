@@ -35,23 +35,37 @@ def check_folder(folder: Path, sign: str = _SIGN) -> None:
     Raises
     ------
     ResultFolderError
-        When the path is a file, or a folder with files that are not an earlier result.
+        When the path is a file, or a folder with files that are not an earlier result, or when nothing can
+        be written there.
     """
-    if folder.exists() and not folder.is_dir():
-        raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
+    check_writable(folder)
     if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():
         raise ResultFolderError(
             f"{folder}: holds files that are no earlier result; --out takes a new folder, an empty one or "
             "that of an earlier run"
         )
+
+
+def check_writable(folder: Path) -> None:
+    """Raise ResultFolderError when a folder cannot be made, or nothing can be written to it."""
+    if folder.exists() and not folder.is_dir():
+        raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
     parent = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-    if not os.access(parent, os.W_OK):
-        raise ResultFolderError(f"{folder}: no permission to write in {parent}")
+    try:  # what the permissions say is not all: the file system may be read-only or full
+        with tempfile.TemporaryFile(dir=parent) as file:
+            file.write(b"room for a file")
+    except OSError as error:
+        raise ResultFolderError(f"{folder}: nothing can be written in {parent}: {error.strerror}") from None
 
 
 def partial_folder(folder: Path) -> Path:
     """Where an unfinished run goes, so that it never replaces a finished one."""
     return folder.with_name(folder.name + "-partial")
+
+
+def temporary_prefix(folder: Path) -> str:
+    """How the names begin of what is only written, and not yet the results in `folder`."""
+    return f".{folder.name}-writing-"
 
 
 @contextmanager
@@ -68,11 +82,12 @@ def result_folder(folder: Path, ours: Sequence[str] = _OURS) -> Iterator[Path]:
     Yields
     ------
     Path
-        The temporary folder; it vanishes when the block raises, and `folder` stays as it was.
+        The temporary folder; it vanishes when the block raises, and `folder` stays as it was. A process
+        that is killed leaves the old results, the new ones, or a folder that is marked as partial.
     """
     missing = [path for path in folder.parents if not path.exists()]
     folder.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    temporary = Path(tempfile.mkdtemp(prefix=temporary_prefix(folder), dir=folder.parent))
     try:
         yield temporary
         if folder.is_dir():
@@ -88,15 +103,22 @@ def result_folder(folder: Path, ours: Sequence[str] = _OURS) -> Iterator[Path]:
 
 
 def _replace(fresh: Path, folder: Path, ours: Sequence[str]) -> None:
-    """Put the files of `fresh` into `folder` in place of those of an earlier run."""
+    """Put the files of `fresh` into `folder` in place of those of an earlier run, marked meanwhile."""
+    mark, own = folder / PARTIAL, fresh / PARTIAL
+    mark.write_text("The results are not complete: the process ended while it replaced earlier ones.\n")
     for name in ours:
         target = folder / name
         if target.is_dir():
             shutil.rmtree(target)
-        else:
+        elif target != mark:
             target.unlink(missing_ok=True)
     for path in fresh.iterdir():
-        path.rename(folder / path.name)
+        if path != own:
+            path.rename(folder / path.name)
+    if own.exists():
+        own.replace(mark)
+    else:
+        mark.unlink()
 
 
 def _umask() -> int:

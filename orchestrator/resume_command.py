@@ -50,6 +50,7 @@ def resume(folder: Path, console: Console, errors: Console, *, trust: bool = Fal
             certify=about["certify"],
             threads=about["threads"],
             trust=trust,
+            budget=about["budget"],
         )
     except KeyError as error:
         raise CheckpointError(f"{saved.path}: {error} is missing") from None

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from time import perf_counter
 
 from orchestrator.coupling import Advance, Coupling
+from orchestrator.errors import Terminated
 from orchestrator.ledger import Ledger
 from orchestrator.outcome import Outcome
 from orchestrator.recorder import Recorder
@@ -98,8 +99,9 @@ class RunEnd:
     record_time: float
 
 
-Save = Callable[[int, float, Stepper], None]
-"""Called with number and end of each macro step that was carried out, 0 for the start, and the stepper."""
+Save = Callable[[int, float, Stepper, bool], None]
+"""Called with number and end of each macro step that was carried out, 0 for the start, the stepper, and
+whether it is the last call."""
 
 
 def run(
@@ -163,7 +165,7 @@ def run(
             if ledger is not None:
                 ledger.begin()
             if save is not None:
-                save(0, 0.0, stepper)
+                save(0, 0.0, stepper, False)
         time = course.instant(first)
         for k in range(first + 1, course.steps + 1):
             for start, stop, length in course.parts(k):
@@ -171,17 +173,24 @@ def run(
             watched = perf_counter()
             recorder.record(k, time)
             if save is not None:
-                save(k, time, stepper)
+                save(k, time, stepper, False)
             recording += perf_counter() - watched
-            on_time(time)
+            try:
+                on_time(time)
+            except KeyboardInterrupt:  # between two steps: the run can go on from here, and be recorded
+                if save is not None:
+                    save(k, time, stepper, True)
+                recorder.close(time)
+                raise
     except StepFailure as error:
         outcome = Outcome.NOT_FINITE if isinstance(error, NotFinite) else Outcome.TOLERANCE_MISSED
         message, unit = f"at t = {time:.9g} s: {error}", error.bearing
     except UnitError as error:
         outcome = error.outcome
         message, unit = f"at t = {time:.9g} s: {error}", error.unit
-    except KeyboardInterrupt:
-        outcome, message = Outcome.INTERRUPTED, f"at t = {time:.9g} s"
+    except KeyboardInterrupt as error:
+        outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
+        message = f"at t = {time:.9g} s"
     if outcome in _LEAVES_UNITS_USABLE:
         recorder.close(time)
     return RunEnd(outcome, message, unit, time, stepper.counts, perf_counter() - begin, recording)

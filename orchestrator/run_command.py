@@ -12,19 +12,21 @@ from rich.text import Text
 
 from orchestrator import exit_status
 from orchestrator.certify import at_half_step, certify
-from orchestrator.checkpoint_folder import checkpoints, discard
+from orchestrator.checkpoint_folder import checkpoint_folder, checkpoints, discard
+from orchestrator.claim import claim
 from orchestrator.errors import OrchestratorError
-from orchestrator.figures.write import write_figures
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.interrupt import interrupt_between_steps
+from orchestrator.outcome import Outcome
 from orchestrator.progress import show_progress
-from orchestrator.record_files import write_record
-from orchestrator.result_folder import FIGURES, PARTIAL, check_folder, partial_folder, result_folder
-from orchestrator.scenario_file import load_scenario, scenario_toml, train_of, with_overrides
+from orchestrator.result_files import NotWrittenError, write_all
+from orchestrator.result_folder import FIGURES, check_folder, check_writable, partial_folder
+from orchestrator.scenario_file import load_scenario, train_of, with_overrides
 from orchestrator.simulate import Execution, Result, default_threads, simulate
-from orchestrator.summary import RunSummary, summarise
-from orchestrator.summary_table import SummaryTable, to_text
+from orchestrator.summary import summarise
+from orchestrator.summary_table import SummaryTable
 from orchestrator.trust import own_bearings, require_trust
+from orchestrator.watchdog import BUDGET, Watchdog, leave
 from rotor_fmu.wording import choice
 
 if TYPE_CHECKING:
@@ -59,6 +61,8 @@ class RunRequest:
         On which the bearings step; None: as many as pay.
     trust : bool
         Run FMUs of others without asking.
+    budget : float
+        Wall time in s that a call to a unit may take; 0 for any.
     """
 
     source: str
@@ -71,6 +75,7 @@ class RunRequest:
     certify: bool = False
     threads: int | None = None
     trust: bool = False
+    budget: float = BUDGET
 
 
 def default_folder(source: str, scenario: Scenario) -> Path:
@@ -125,19 +130,35 @@ def carry_out_request(
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
     check_folder(folder)
+    if request.checkpoint is not None:
+        check_writable(checkpoint_folder(folder))
     known = saved.about.get("trusted", ()) if saved is not None else ()
     trusted = require_trust(own_bearings(scenario), request.fmus, trust=request.trust, known=known)
     threads = request.threads or default_threads(scenario, train)
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     ensure_fmus(request.fmus, train, depths, console)
-    with show_progress(scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        execution = Execution(checkpoints(scenario, request, folder, trusted), saved, threads)
-        result = simulate(scenario, request.fmus, progress, execution)
-    certified = request.certify and result.outcome.ok
-    half = _at_half_step(scenario, request, console, threads) if certified else None
-    status = conclude(result, scenario, train, request, folder, console, errors, half)
-    if result.outcome.ok and request.checkpoint is not None:
-        discard(folder)
+
+    def finish(result: Result, half: Result | None = None) -> int:
+        return conclude(result, scenario, train, request, folder, console, errors, half)
+
+    def warn(text: str) -> None:
+        errors.print(f"[yellow]warning:[/yellow] {text}", highlight=False, soft_wrap=True)
+
+    with claim(folder):
+        saving = checkpoints(scenario, request, folder, trusted, warn)
+        with (
+            Watchdog(request.budget, lambda hung: leave(lambda: finish(hung))) as watchdog,
+            show_progress(scenario.end, console) as show,
+            interrupt_between_steps(show) as progress,
+        ):
+            result = simulate(
+                scenario, request.fmus, progress, Execution(saving, saved, threads, watchdog)
+            )
+        certified = request.certify and result.outcome.ok
+        half = _at_half_step(scenario, request, console, threads) if certified else None
+        status = finish(result, half)
+        if status == 0 and request.checkpoint is not None:
+            discard(folder)
     return status
 
 
@@ -177,45 +198,26 @@ def conclude(
         summary = replace(summary, certificate=certificate)
         result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
     console.print(SummaryTable(summary))
-    if not result.outcome.ok:
+    outcome, message = result.outcome, f"{summary.message} {summary.advice}"
+    if not outcome.ok:
         folder = partial_folder(folder)
-    if result.outcome.ok or summary.phases:
-        _write(result, summary, scenario, train, request, folder)
-        kind = "Results" if result.outcome.ok else "Partial results"
-        console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
-        if request.formats and summary.phases:
-            console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
-    status = exit_status.of_outcome(result.outcome)
-    if not result.outcome.ok:
+    if outcome.ok or summary.phases:
+        try:
+            write_all(result, summary, scenario, train, request.formats, folder)
+        except NotWrittenError as error:
+            outcome = Outcome.NOT_WRITTEN
+            message = f"{error} {outcome.advice}"
+            if request.checkpoint is not None:
+                message += " The checkpoint is kept: bladeloss resume goes on from there."
+        else:
+            kind = "Results" if outcome.ok else "Partial results"
+            console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
+            if request.formats and summary.phases:
+                console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
+    status = exit_status.of_outcome(outcome)
+    if not outcome.ok:
         errors.print(
-            Text.assemble(
-                ("error:", "red"),
-                f" {summary.outcome} (exit status {status}): {summary.message} {summary.advice}",
-            ),
+            Text.assemble(("error:", "red"), f" {outcome.value} (exit status {status}): {message}"),
             soft_wrap=True,
         )
     return status
-
-
-def write_data(result: Result, summary: RunSummary, scenario: Scenario, folder: Path) -> None:
-    """Write record, summary and scenario of a run, and the mark of a partial one."""
-    write_record(result.record, folder)
-    (folder / "summary.txt").write_text(to_text(summary), encoding="utf-8")
-    (folder / "summary.json").write_text(summary.to_json(), encoding="utf-8")
-    (folder / "scenario.toml").write_text(scenario_toml(scenario), encoding="utf-8")
-    if not summary.finished:
-        reason = f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
-        (folder / PARTIAL).write_text(reason, encoding="utf-8")
-
-
-def _write(
-    result: Result, summary: RunSummary, scenario: Scenario, train: Train, request: RunRequest, folder: Path
-) -> None:
-    """Write what a run leaves behind: first the data, all or nothing, then the figures likewise."""
-    with result_folder(folder) as fresh:
-        write_data(result, summary, scenario, fresh)
-    if request.formats and summary.phases:
-        with result_folder(folder / FIGURES) as fresh:
-            write_figures(
-                [result.record], fresh, train=train, bearing=summary.analysed, formats=request.formats
-            )

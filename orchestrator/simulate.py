@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from copy import copy
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +36,7 @@ from rotor_fmu.train import Train
 __all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
 
 _PLAIN = Execution()
+_NO_TIME = Timing(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 QUICK_DEPTHS = ("v2", "v3")
 """Films of some microseconds, which threads would only delay."""
@@ -76,6 +79,8 @@ def simulate(
     train = train_of(scenario)
     clock = Stopwatch()
     with FmuStore() as store:
+        execution.watchdog.partial = partial(failed_start, scenario, train, Outcome.UNIT_HUNG)
+        execution.watchdog.leftovers.append(store.remove)
         announce(Stage.LOAD, 0.0)
         system = assemble(scenario, train, fmus, store, execution.threads)
         try:
@@ -137,10 +142,8 @@ def carry_out(
             start = resume.start()
     except (EquilibriumError, UnitError) as error:
         outcome = error.outcome if isinstance(error, UnitError) else Outcome.NO_EQUILIBRIUM
-        message = f"at the start: {error}"
-        record = empty_record(scenario, train, outcome, message)
         timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)
-        return Result(record, outcome, message, timing, 0, 0)
+        return failed_start(scenario, train, outcome, f"at the start: {error}", timing)
     equilibrium = clock.lap()
     announce(Stage.RUN, 0.0)
     course = _course(scenario)
@@ -151,17 +154,30 @@ def carry_out(
     ledger = Ledger(system) if scenario.ledger else None
     keepers: dict[str, Keeper] = {"record": recorder, **({} if ledger is None else {"ledger": ledger})}
 
-    def save(step: int, time: float, stepper: Stepper) -> None:
+    def save(step: int, time: float, stepper: Stepper, last: bool) -> None:
         if checkpoints is not None:
-            checkpoints.save((step, time), system, stepper, keepers, start)
+            checkpoints.save((step, time), system, stepper, keepers, start, last=last)
 
+    def on_time(time: float) -> None:
+        watchdog.beat(time)
+        announce(Stage.RUN, time)
+
+    def hung(message: str) -> Result:
+        kept = copy(recorder)  # its size stays as it is, whatever the time loop does
+        record = make_record(kept, start, scenario, train, Outcome.UNIT_HUNG, message, provenance)
+        timing = Timing(load, equilibrium, 0.0, 0.0, 0.0, 0.0, clock.lap())
+        return Result(record, Outcome.UNIT_HUNG, message, timing, 0, system.bearing_group.evaluations)
+
+    provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+    watchdog = execution.watchdog
+    watchdog.partial, watchdog.patience = hung, 1.0
     before = [(group.step_time, group.exchange_time) for group in system.groups]
     end = run(
         system,
         make_scheme(scenario.coupling, scenario.tolerance),
         recorder,
         course,
-        on_time=lambda time: announce(Stage.RUN, time),
+        on_time=on_time,
         save=save,
         resume=None if resume is None else lambda stepper: resume.restore_run(stepper, keepers),
         ledger=ledger,
@@ -172,7 +188,6 @@ def carry_out(
     )
     fmi = rotor_exchange + film_exchange
     rest = end.wall_time - film - rotor - fmi - end.record_time
-    provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
     outcome, message = end.outcome, with_state(end, system, start.offsets)
     record = make_record(recorder, start, scenario, train, outcome, message, provenance)
     if outcome.ok and (message := unresolved(record)):
@@ -190,6 +205,13 @@ def carry_out(
         system.bearing_group.evaluations,
         end.counts,
     )
+
+
+def failed_start(
+    scenario: Scenario, train: Train, outcome: Outcome, message: str, timing: Timing = _NO_TIME
+) -> Result:
+    """Return the result of a run that came to no start."""
+    return Result(empty_record(scenario, train, outcome, message), outcome, message, timing, 0, 0)
 
 
 def _course(scenario: Scenario) -> Course:

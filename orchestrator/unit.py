@@ -31,6 +31,7 @@ from orchestrator.unit_error import Status, UnitError
 __all__ = ["Block", "Status", "Unit", "UnitError"]
 
 _KEPT_MESSAGES = 50
+_STATUSES = frozenset(Status)
 _VALUE_CONVERSION: dict[str, Callable[[Any], Any]] = {
     "Real": float, "Integer": int, "Boolean": bool, "String": str,
 }  # fmt: skip
@@ -153,7 +154,7 @@ class Unit:
         return run
 
     def _fail(self, function: str, status: int) -> None:
-        code = Status(status)
+        code = Status(status) if status in _STATUSES else Status.FATAL  # whatever the unit means by it
         self._worst = max(self._worst, code)
         raise UnitError(self.name, function, code, self._messages[-1] if self._messages else "")
 

@@ -6,10 +6,9 @@ import multiprocessing
 import os
 import signal
 import sys
-import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnContext, SpawnProcess
 from multiprocessing.synchronize import Event
@@ -17,6 +16,7 @@ from types import FrameType
 
 from orchestrator.comparison.worker import Ended, Message, Progressed, Task, Work, simulate_task
 from orchestrator.errors import OrchestratorError
+from orchestrator.interrupt import handled, raise_at_once
 from orchestrator.outcome import Outcome
 
 DIED = "process-died"
@@ -24,6 +24,7 @@ DIED = "process-died"
 _ADVICE = "The process ended from outside or crashed, often for want of memory; try --jobs 1."
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _PATIENCE = 10.0  # s that a process gets to end by itself after its last word
+_HASTE = 1.0  # s that it gets where its run is of no more use
 
 Show = Callable[[str, Progressed | Ended], None]
 
@@ -72,19 +73,23 @@ def run_all(tasks: Sequence[Task], jobs: int, show: Show, *, work: Work = simula
     waiting, running = list(tasks), dict[Connection, _Running]()
     ended: dict[str, Ended] = {}
 
+    asked: list[int] = []
+
     def end(task: Task, how: Ended) -> None:
+        if asked[:1] == [signal.SIGTERM] and how.outcome == Outcome.INTERRUPTED.value:
+            how = replace(how, outcome=Outcome.TERMINATED.value, advice=Outcome.TERMINATED.advice)
         ended[task.name] = how
         show(task.name, how)
 
     try:
-        with _interrupt_sets(stop):
+        with _signal_sets(stop) as asked:
             while waiting or running:
                 while waiting and len(running) < jobs and not stop.is_set():
                     connection, started = _start(context, waiting.pop(0), stop, work, jobs)
                     running[connection] = started
                 if stop.is_set():
                     for task in waiting:
-                        end(task, _interrupted())
+                        end(task, _not_started())
                     waiting = []
                 for ready in wait(list(running), timeout=0.2):
                     assert isinstance(ready, Connection)
@@ -101,8 +106,10 @@ def run_all(tasks: Sequence[Task], jobs: int, show: Show, *, work: Work = simula
                         raise message
                     end(run.task, message or _died(run))
     finally:
+        stop.set()
         for run in running.values():
-            run.process.terminate()
+            run.process.join(_HASTE)
+            run.process.kill()
             run.process.join(_PATIENCE)
     return {task.name: ended[task.name] for task in tasks}
 
@@ -145,7 +152,7 @@ def _died(run: _Running) -> Ended:
     return Ended(DIED, how, _ADVICE, run.simulated, 0.0)
 
 
-def _interrupted() -> Ended:
+def _not_started() -> Ended:
     return Ended(Outcome.INTERRUPTED.value, "not started", Outcome.INTERRUPTED.advice, 0.0, 0.0)
 
 
@@ -162,19 +169,15 @@ def _threads(number: int) -> Iterator[None]:
 
 
 @contextmanager
-def _interrupt_sets(stop: Event) -> Iterator[None]:
-    """Turn the first interrupt into the event; a second one is an interrupt."""
+def _signal_sets(stop: Event) -> Iterator[list[int]]:
+    """Turn the first signal into the event, and yield the list that it enters; a second one is raised."""
+    asked: list[int] = []
 
-    def on_interrupt(_signal: int, _frame: FrameType | None) -> None:
-        if stop.is_set():
-            raise KeyboardInterrupt
+    def on_signal(number: int, frame: FrameType | None) -> None:
+        if asked:
+            raise_at_once(number, frame)
+        asked.append(number)
         stop.set()
 
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, on_interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with handled(on_signal):
+        yield asked

@@ -11,11 +11,14 @@ from multiprocessing.synchronize import Event
 from pathlib import Path
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.interrupt import SIGNALS
 from orchestrator.outcome import Outcome
-from orchestrator.run_command import write_data
+from orchestrator.result_files import NotWrittenError, room_for, write_data
+from orchestrator.result_folder import result_folder
 from orchestrator.scenario import Scenario
-from orchestrator.simulate import Stage, simulate
+from orchestrator.simulate import Execution, Result, Stage, simulate
 from orchestrator.summary import summarise
+from orchestrator.watchdog import BUDGET, Watchdog, leave
 
 PERIOD = 0.2
 """Least wall time between two messages of progress [s]."""
@@ -33,12 +36,15 @@ class Task:
         What is simulated.
     fmus, folder : Path
         Folder of the FMUs, and of the results, made by the run.
+    budget : float
+        Wall time in s that a call to a unit may take; 0 for any.
     """
 
     name: str
     scenario: Scenario
     fmus: Path
     folder: Path
+    budget: float = BUDGET
 
 
 @dataclass(frozen=True)
@@ -98,7 +104,8 @@ def simulate_task(task: Task, connection: Connection, stop: Event) -> None:
     stop : Event
         Set when the run is to end early; it ends between two macro steps.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent asks by `stop`, a unit is never cut off
+    for number in SIGNALS:  # the parent asks by `stop`, a unit is never cut off
+        signal.signal(number, signal.SIG_IGN)
     due, stage_before = 0.0, None
 
     def report(stage: Stage, simulated: float) -> None:
@@ -111,8 +118,13 @@ def simulate_task(task: Task, connection: Connection, stop: Event) -> None:
         if stop.is_set():
             raise KeyboardInterrupt
 
+    def conclude(result: Result) -> int:
+        _conclude(task, result, connection)
+        return 0
+
     try:
-        result = simulate(task.scenario, task.fmus, report)
+        with Watchdog(task.budget, lambda hung: leave(lambda: conclude(hung))) as watchdog:
+            result = simulate(task.scenario, task.fmus, report, Execution(watchdog=watchdog))
     except OrchestratorError as error:
         connection.send(OrchestratorError(str(error)))
         return
@@ -120,11 +132,17 @@ def simulate_task(task: Task, connection: Connection, stop: Event) -> None:
         outcome = Outcome.INTERRUPTED
         connection.send(Ended(outcome.value, "before the first step", outcome.advice, 0.0, 0.0))
         return
+    conclude(result)
+
+
+def _conclude(task: Task, result: Result, connection: Connection) -> None:
+    """Write the run's folder and tell how it ended."""
     summary = summarise(result)
-    task.folder.mkdir(parents=True, exist_ok=True)
-    if summary.phases:
-        write_data(result, summary, task.scenario, task.folder)
-    outcome = result.outcome
-    connection.send(
-        Ended(outcome.value, result.message, outcome.advice, summary.simulated, result.timing.loop)
-    )
+    outcome, message = result.outcome, result.message
+    try:
+        with room_for([result.record], task.folder), result_folder(task.folder) as fresh:
+            if summary.phases:
+                write_data(result, summary, task.scenario, fresh)
+    except NotWrittenError as error:
+        outcome, message = Outcome.NOT_WRITTEN, str(error)
+    connection.send(Ended(outcome.value, message, outcome.advice, summary.simulated, result.timing.loop))

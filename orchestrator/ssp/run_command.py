@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
+from orchestrator.claim import claim
 from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
 from orchestrator.result_folder import check_folder
 from orchestrator.run_command import check_bearing, conclude
+from orchestrator.simulate import Execution, Result
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 from orchestrator.trust import require_trust
+from orchestrator.watchdog import Watchdog, leave
 
 if TYPE_CHECKING:
     from orchestrator.run_command import RunRequest
@@ -51,12 +54,17 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     path = Path(request.source)
     folder = request.out or Path("results") / path.stem
     check_folder(folder)
-    with SspRun(path, request.overrides) as prepared:
+    with claim(folder), SspRun(path, request.overrides) as prepared:
         check_bearing(request, prepared.train)
         require_trust(prepared.fmus, request.fmus, trust=request.trust)
+
+        def finish(result: Result) -> int:
+            return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors)
+
         with (
+            Watchdog(request.budget, lambda hung: leave(lambda: finish(hung))) as watchdog,
             show_progress(prepared.scenario.end, console) as show,
             interrupt_between_steps(show) as progress,
         ):
-            result = prepared.simulate(progress)
-        return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors)
+            result = prepared.simulate(progress, Execution(watchdog=watchdog))
+        return finish(result)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import tempfile
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +14,17 @@ import numpy as np
 from orchestrator.equilibrium import Start
 from orchestrator.errors import FmuError
 from orchestrator.fmu_file import FmuStore
+from orchestrator.outcome import Outcome
 from orchestrator.parameters import offset_names, start_names
 from orchestrator.scenario import Scenario
-from orchestrator.simulate import Progress, Result, Stage, Stopwatch, carry_out
+from orchestrator.simulate import Execution, Progress, Result, Stage, Stopwatch, carry_out, failed_start
 from orchestrator.ssp.contents import Contents, as_scenario, parameters, understand, value_of
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.system import System
 from orchestrator.unit import Unit, UnitError
 from rotor_fmu.train import Train
+
+_PLAIN = Execution()
 
 
 class SspRun:
@@ -64,7 +68,7 @@ class SspRun:
             for c in self._contents.structure.components
         }
 
-    def simulate(self, progress: Progress | None = None) -> Result:
+    def simulate(self, progress: Progress | None = None, execution: Execution = _PLAIN) -> Result:
         """Run it from its start parameters; no equilibrium is sought.
 
         Raises
@@ -73,11 +77,19 @@ class SspRun:
             When an FMU cannot be instantiated, lacks the port or does not take its parameters.
         """
         announce = progress or (lambda _stage, _time: None)
+        execution.watchdog.partial = partial(failed_start, self.scenario, self.train, Outcome.UNIT_HUNG)
+        execution.watchdog.leftovers += [self._store.remove, self._folder.cleanup]
         announce(Stage.LOAD, 0.0)
         system = _assemble(self._contents, self.scenario, self.path)
         try:
             result = carry_out(
-                self.scenario, self.train, system, lambda: _start(self._contents), self._clock, announce
+                self.scenario,
+                self.train,
+                system,
+                lambda: _start(self._contents),
+                self._clock,
+                announce,
+                execution,
             )
         finally:
             system.close()

@@ -214,7 +214,7 @@ def test_a_failed_write_leaves_nothing(finished, tmp_path, monkeypatch):
     def fail(*_args, **_kwargs):
         raise OSError("disk full")
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    monkeypatch.setattr("orchestrator.record_files.netcdf", fail)
     with pytest.raises(OSError, match="disk full"):
         write_record(finished.record, tmp_path)
     assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,91 @@
+"""What a run leaves on disk: record, summary, scenario and figures, whole or marked as partial."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.figures.write import write_figures
+from orchestrator.record_files import write_record
+from orchestrator.result_folder import FIGURES, PARTIAL, result_folder
+from orchestrator.scenario_file import scenario_toml
+from orchestrator.summary_table import to_text
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from orchestrator.result import Result
+    from orchestrator.scenario import Scenario
+    from orchestrator.summary import RunSummary
+    from rotor_fmu.train import Train
+
+NO_FIGURES = "The figures are not written; record and summary are complete.\n"
+
+
+class NotWrittenError(OrchestratorError):
+    """Results that could not be written; the text names folder, reason, needed and free room."""
+
+
+def write_data(result: Result, summary: RunSummary, scenario: Scenario, folder: Path) -> None:
+    """Write record, summary and scenario of a run, and the mark of a partial one."""
+    write_record(result.record, folder)
+    (folder / "summary.txt").write_text(to_text(summary), encoding="utf-8")
+    (folder / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+    (folder / "scenario.toml").write_text(scenario_toml(scenario), encoding="utf-8")
+    if not summary.finished:
+        reason = f"{summary.outcome} at t = {summary.simulated:.6g} s\n{summary.message}\n{summary.advice}\n"
+        (folder / PARTIAL).write_text(reason, encoding="utf-8")
+
+
+def write_all(
+    result: Result,
+    summary: RunSummary,
+    scenario: Scenario,
+    train: Train,
+    formats: Sequence[str],
+    folder: Path,
+) -> None:
+    """Write what a run leaves behind: first the data, all or nothing, then the figures likewise.
+
+    Raises
+    ------
+    NotWrittenError
+        When the disk is full, or cannot be written to.
+    """
+    drawn = bool(formats and summary.phases)
+    with room_for([result.record], folder):
+        with result_folder(folder) as fresh:
+            write_data(result, summary, scenario, fresh)
+            if drawn and summary.finished:
+                (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
+        if drawn:
+            add_figures([result.record], folder, train, summary.analysed, formats)
+            if summary.finished:
+                (folder / PARTIAL).unlink()
+
+
+def add_figures(
+    records: Sequence[xr.Dataset], folder: Path, train: Train, bearing: str | None, formats: Sequence[str]
+) -> None:
+    """Write the figures of one or several runs into the folder of their results."""
+    with result_folder(folder / FIGURES) as fresh:
+        write_figures(records, fresh, train=train, bearing=bearing, formats=formats)
+
+
+@contextmanager
+def room_for(records: Sequence[xr.Dataset], folder: Path) -> Iterator[None]:
+    """Say what is missing when results cannot be written to a folder."""
+    try:
+        yield
+    except OSError as error:
+        needed = sum(record.nbytes for record in records) / 1e6
+        existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+        free = shutil.disk_usage(existing).free / 1e6
+        raise NotWrittenError(
+            f"{folder}: results not written: {error.strerror or error}; about {needed:.3g} MB are needed, "
+            f"{free:.3g} MB are free."
+        ) from None

@@ -1,0 +1,35 @@
+"""A bearing that works for some steps and then fails in the way that the environment variable FAULT names."""
+
+import ctypes
+import math
+import os
+import time
+
+from spring_bearing import OUTPUTS, SpringBearing
+
+LONG = 20.0  # s; without a guard the run ends well
+BEGIN = 0.0015  # s
+
+
+class FaultyBearing(SpringBearing):
+    def exit_initialization_mode(self):
+        if os.environ.get("FAULT") == "start":
+            time.sleep(LONG)
+        super().exit_initialization_mode()
+
+    def do_step(self, current_time, step_size):
+        fault = os.environ.get("FAULT") if current_time >= BEGIN else None
+        if fault == "sleep":
+            time.sleep(LONG)
+        elif fault == "loop":
+            end = time.monotonic() + LONG
+            while time.monotonic() < end:
+                pass
+        elif fault == "lock":  # keeps Python's lock, as a native library does that is called with it
+            ctypes.PyDLL(None).usleep(int(LONG * 1e6))
+        elif fault == "raise":
+            raise RuntimeError("the spring is broken")
+        done = super().do_step(current_time, step_size)
+        if fault == "nan":
+            self.values.update(dict.fromkeys(OUTPUTS, math.nan))
+        return done
