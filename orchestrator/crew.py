@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from queue import SimpleQueue
+from threading import Thread
 
-from orchestrator.unit import Unit, UnitError
+from orchestrator.unit import Unit
+
+_Share = Sequence[tuple[int, Unit]]
+_Errors = dict[int, Exception]
 
 
 class Crew:
@@ -23,8 +27,9 @@ class Crew:
 
     def __init__(self, units: Sequence[Unit], threads: int = 1) -> None:
         count = max(1, min(threads, len(units)))
-        self._shares = [tuple(enumerate(units))[first::count] for first in range(count)]
-        self._pool = ThreadPoolExecutor(count - 1, "bladeloss") if count > 1 else None
+        first, *others = (tuple(enumerate(units))[k::count] for k in range(count))
+        self._own = first
+        self._hands = [_Hand(share) for share in others]
 
     def step(self, time: float, step: float) -> None:
         """Carry out a macro step in every unit.
@@ -34,27 +39,41 @@ class Crew:
         UnitError
             From the first unit, in their order, that does not accept the step.
         """
-        if self._pool is None:
-            errors = _step_all(self._shares[0], time, step)
-        else:
-            others = [self._pool.submit(_step_all, share, time, step) for share in self._shares[1:]]
-            errors = _step_all(self._shares[0], time, step)
-            for other in others:
-                errors |= other.result()
+        for hand in self._hands:
+            hand.orders.put((time, step))
+        errors = _step_all(self._own, time, step)
+        for hand in self._hands:
+            errors |= hand.done.get()
         if errors:
             raise errors[min(errors)]
 
     def close(self) -> None:
         """End the threads."""
-        if self._pool is not None:
-            self._pool.shutdown()
+        for hand in self._hands:
+            hand.orders.put(None)
+            hand.thread.join()
+        self._hands = []
 
 
-def _step_all(share: Sequence[tuple[int, Unit]], time: float, step: float) -> dict[int, UnitError]:
-    errors = {}
+class _Hand:
+    """A thread that waits for orders; a macro step is too short for the futures of an executor."""
+
+    def __init__(self, share: _Share) -> None:
+        self.orders: SimpleQueue[tuple[float, float] | None] = SimpleQueue()
+        self.done: SimpleQueue[_Errors] = SimpleQueue()
+        self.thread = Thread(target=self._work, args=(share,), name="bladeloss", daemon=True)
+        self.thread.start()
+
+    def _work(self, share: _Share) -> None:
+        while (order := self.orders.get()) is not None:
+            self.done.put(_step_all(share, *order))
+
+
+def _step_all(share: _Share, time: float, step: float) -> _Errors:
+    errors: _Errors = {}
     for index, unit in share:
         try:
             unit.do_step(time, step)
-        except UnitError as error:
+        except Exception as error:  # a surprise, too, must reach the caller, who waits for this thread
             errors[index] = error
     return errors
