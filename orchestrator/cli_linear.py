@@ -173,23 +173,16 @@ def _run(
     formats: list[Format] | None,
     trust: bool,
 ) -> None:
-    """Do a command's work; without an equilibrium the status is that of a run without one."""
+    """Do a command's work on a scenario or a train."""
 
     def guarded_work() -> int:
         from rich.console import Console
 
-        from orchestrator.errors import EquilibriumError
-        from orchestrator.exit_status import STATUS
         from orchestrator.linear_case import LinearRequest
-        from orchestrator.outcome import Outcome
 
         kinds = tuple(str(kind) for kind in formats or [Format.PNG])
         request = LinearRequest(name, source, depth and str(depth), out, fmus, kinds, trust)
-        try:
-            return work(request, Console())
-        except EquilibriumError as error:
-            Console(stderr=True).print(f"[red]error:[/red] {error}", highlight=False)
-            return STATUS[Outcome.NO_EQUILIBRIUM]
+        return work(request, Console())
 
     guarded(guarded_work)
 

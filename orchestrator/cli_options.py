@@ -77,24 +77,29 @@ FigureFormats = Annotated[
 
 
 def guarded(work: Callable[[], int]) -> None:
-    """Do the work; an error of the input becomes its text on stderr and exit status 2."""
-    from orchestrator.errors import OrchestratorError, Terminated
-    from orchestrator.exit_status import INPUT_ERROR, STATUS
+    """Do the work; an error becomes its text on stderr and a status: 2 for the input, else its outcome's."""
+    from orchestrator.errors import EquilibriumError, OrchestratorError, Terminated
+    from orchestrator.exit_status import INPUT_ERROR, of_outcome
     from orchestrator.interrupt import handled, raise_at_once
     from orchestrator.outcome import Outcome
+    from orchestrator.unit_error import UnitError
     from rotor_fmu.train_file import TrainFileError
 
+    text = ""
     try:
         with handled(raise_at_once):
             status = work()
+    except EquilibriumError as error:
+        text, status = f"{error}. {Outcome.NO_EQUILIBRIUM.advice}", of_outcome(Outcome.NO_EQUILIBRIUM)
+    except UnitError as error:
+        text, status = f"{error}. {error.outcome.advice}", of_outcome(error.outcome)
     except (OrchestratorError, TrainFileError) as error:
-        typer.secho(f"error: {error}", err=True, fg="red")
-        status = INPUT_ERROR
+        text, status = str(error), INPUT_ERROR
     except OSError as error:
-        typer.secho(f"error: {error}", err=True, fg="red")
-        status = 1
+        text, status = str(error), 1
     except KeyboardInterrupt as error:
         outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
-        typer.secho(f"{outcome.value}; nothing was written", err=True, fg="red")
-        status = STATUS[outcome]
+        text, status = f"{outcome.value}; nothing was written", of_outcome(outcome)
+    if text:
+        typer.secho(f"error: {text}", err=True, fg="red")
     raise typer.Exit(status)

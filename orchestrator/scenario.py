@@ -35,6 +35,7 @@ DepthOrFmu = Annotated[Depth, WrapValidator(_or_fmu)]
 """A depth, or the path of an FMU with the port of a bearing."""
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Interval = Annotated[float, Field(ge=1e-9, le=1e6, allow_inf_nan=False, description="s")]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Angle = Annotated[
     float, Field(ge=-6.3, le=6.3, allow_inf_nan=False, description="rad; did you give degrees?")
@@ -43,9 +44,9 @@ Grade = Annotated[float | None, Field(ge=0.0, le=0.1, allow_inf_nan=False, descr
 
 
 class _Model(BaseModel):
-    """Immutable, and an unknown key is an error."""
+    """Immutable; an unknown key is an error, and true or "1" are no numbers."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class WheelUnbalance(_Model):
@@ -124,7 +125,7 @@ class RecordSettings(_Model):
         every macro step between two records are kept whatever the interval.
     """
 
-    interval: Positive = 5e-4
+    interval: Interval = 5e-4
 
 
 class Scenario(_Model):
@@ -179,8 +180,8 @@ class Scenario(_Model):
     depth_at: dict[str, DepthOrFmu] = {}
     unbalance: Unbalance = Unbalance()
     event: BladeFracture | None = None
-    end: Positive
-    step: Positive = 1e-4
+    end: Interval
+    step: Interval = 1e-4
     tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
     ledger: bool = False
     coupling: CouplingName = "linear-implicit"

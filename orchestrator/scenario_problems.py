@@ -19,6 +19,9 @@ from rotor_fmu.wording import choice, refusal, shown
 STEPS_PER_REVOLUTION = 10
 """Least number of macro steps in a revolution: below it the unbalance itself is not resolved."""
 
+MOST_STEPS = 1e9
+"""Of a run: a day for a train whose step takes a tenth of a millisecond."""
+
 _BYTES_AT_BEARING = 8 * 30
 _BYTES_AT_NODE = 4 * 4
 """Of one sample of the record, see `orchestrator.recorder`."""
@@ -92,6 +95,12 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
             ("step",),
             f"step = {scenario.step!r}; allowed is at most a tenth of a revolution of train "
             f"{train.name!r}, {longest:.3g} s",
+        )
+    if scenario.step < scenario.end / MOST_STEPS:
+        yield (
+            ("step",),
+            f"step = {scenario.step!r}; allowed is at least {scenario.end / MOST_STEPS:.3g} s, a billionth "
+            "of the run, which would never end",
         )
     if scenario.step > scenario.end:
         yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"

@@ -126,7 +126,7 @@ def _read_shaft(path: Path, problems: list[str]) -> list[tuple[int, ShoulderRow]
             continue
         raw = dict(zip(_COLUMNS, cells, strict=True))
         try:
-            rows.append((number, ShoulderRow.model_validate(raw)))
+            rows.append((number, ShoulderRow.model_validate_strings(raw)))
         except ValidationError as error:
             problems.extend(f"row {number}: {text}" for _, text in explain(error, raw, ShoulderRow))
     if len(content) == 1:

@@ -43,7 +43,9 @@ _PRESSURE = "Pa; did you give MPa?"
 
 
 class _Entry(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    """Immutable; an unknown key is an error, and true or "1" are no numbers."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class ShoulderRow(_Entry):

@@ -33,12 +33,16 @@ _LONGEST = 60
 def choice(given: str, allowed: Iterable[str]) -> str:
     """Say which names are allowed, with the closest of them first if it is close."""
     names = [str(name) for name in allowed]
-    folded = {name.casefold(): name for name in names}
+    return f"{likely(given, names)}allowed are {', '.join(names)}"
+
+
+def likely(given: str, allowed: Iterable[str]) -> str:
+    """Ask for the closest of the names, ``did you mean 'x'? ``, or say nothing where none is close."""
+    folded = {name.casefold(): name for name in allowed}
     given = given.casefold()
     close = difflib.get_close_matches(given, folded, n=1)
     close = close or [name for name in folded if given and name.startswith(given)]
-    hint = f"did you mean {folded[close[0]]!r}? " if close else ""
-    return f"{hint}allowed are {', '.join(names)}"
+    return f"did you mean {folded[close[0]]!r}? " if close else ""
 
 
 def refusal(key: str, problem: Mapping[str, Any], description: str | None) -> str:

@@ -18,17 +18,14 @@ from orchestrator.graph import Connection
 from orchestrator.safe_archive import ArchiveError, inside
 from orchestrator.scenario import (
     DEPTHS,
-    BladeFracture,
-    FilmResolution,
     Scenario,
-    Unbalance,
-    WheelUnbalance,
 )
 from orchestrator.scenario_file import replaced
 from orchestrator.scenario_problems import shape_problems, time_problems
 from orchestrator.ssp.structure import Component, SspError, Structure
 from orchestrator.system import Wiring, port_connections
 from rotor_fmu.train import Train
+from rotor_fmu.wording import likely
 
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
 _LISTED = 12  # of the connections in a message
@@ -159,7 +156,8 @@ def parameters(component: Component, file: FmuFile, path: Path) -> dict[str, Val
         variable = file.variables.get(name)
         if variable is None or variable.causality not in ("input", "parameter"):
             what = "no variable" if variable is None else f"a {variable.causality}, and not to be set,"
-            raise SspError(f"{path}: {component.name}: {name} is {what} of {file.path.name}")
+            hint = "" if variable else f"; {likely(name, file.variables)}".rstrip("; ")
+            raise SspError(f"{path}: {component.name}: {name} is {what} of {file.path.name}{hint}")
     return dict(component.parameters)
 
 
@@ -206,10 +204,11 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         for seat, c in zip(train.bearings, contents.bearings, strict=True)
     }
     common = next((depth for depth in depths.values() if depth in DEPTHS), DEPTHS[0])
-    film = FilmResolution()
-    if "film.columns" in contents.files[first.name].variables:
-        columns, rows = (int(value_of(contents, first, f"film.{key}")) for key in ("columns", "rows"))
-        film = FilmResolution(columns=columns, rows=rows)
+    film = {
+        key: _whole(value_of(contents, first, f"film.{key}"))
+        for key in ("columns", "rows")
+        if f"film.{key}" in contents.files[first.name].variables
+    }
     values: dict[str, Any] = {
         "title": structure.title or structure.name,
         "train": train.name,
@@ -256,7 +255,13 @@ def _wheel_values(contents: Contents, key: str) -> list[float]:
     return [float(value_of(contents, contents.rotor, f"wheel[{j}].{key}")) for j in wheels]
 
 
-def _unbalance(contents: Contents) -> Unbalance:
+def _whole(value: Any) -> float:
+    """Return a number without its fraction of zero; one that has another is refused later, by its name."""
+    number = float(value)
+    return int(number) if number.is_integer() else number
+
+
+def _unbalance(contents: Contents) -> dict[str, Any]:
     train = contents.train
     values = zip(
         train.wheels,
@@ -265,16 +270,16 @@ def _unbalance(contents: Contents) -> Unbalance:
         _wheel_values(contents, "unbalance_phase"),
         strict=True,
     )
-    return Unbalance(
-        at={
-            wheel.name: WheelUnbalance(unbalance=value, phase=phase)
+    return {
+        "at": {
+            wheel.name: {"unbalance": value, "phase": phase}
             for wheel, nominal, value, phase in values
             if (value, phase) != (nominal, wheel.unbalance_phase)
         }
-    )
+    }
 
 
-def _event(contents: Contents, end: float) -> BladeFracture | None:
+def _event(contents: Contents, end: float) -> dict[str, Any] | None:
     """The fracture before the end; of several wheels that with the largest unbalance."""
     lost, phases = (_wheel_values(contents, f"blade_{key}") for key in ("unbalance", "phase"))
     time = float(value_of(contents, contents.rotor, "fracture.time"))
@@ -282,4 +287,4 @@ def _event(contents: Contents, end: float) -> BladeFracture | None:
     if not (lost[largest] > 0.0 and time < end):
         return None
     wheel = contents.train.wheels[largest].name
-    return BladeFracture(wheel=wheel, unbalance=lost[largest], phase=phases[largest], time=time)
+    return {"wheel": wheel, "unbalance": lost[largest], "phase": phases[largest], "time": time}

@@ -82,7 +82,7 @@ def test_every_problem_is_reported_at_once(scenario_file):
     """
     found = problems(scenario_file(text))
     expected = [
-        "line 3: end = -1.0; allowed is a number greater than 0",
+        "line 3: end = -1.0; allowed is a number of at least 1e-09 s",
         "line 4: stepp: unknown key; did you mean 'step'? allowed are title, train, reduction",
         "line 5: depth = 'v4'; allowed are v1, v2, v3",
         "line 6: reduction = 'irz'; did you mean 'irs'? allowed are irs, irs-plain, guyan",

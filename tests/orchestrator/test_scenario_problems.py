@@ -98,9 +98,20 @@ CASES = [
         broken=(MODEL, "Field(ge=3, le=30)", "Field(ge=3, le=64)"),
     ),
     case(
-        "step = 1e-4", "step = nan", 3, "step = nan; allowed is a finite number",
-        "a number that is none", "exit 2; line, key, value",
+        "unbalance = 0.5", "unbalance = inf", 9, "event.unbalance = inf; allowed is a finite number",
+        "a number that is infinite", "exit 2; line, key, value",
         broken=(MODEL, "Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]", "Positive = float"),
+    ),
+    case(
+        "step = 1e-4", "step = true", 3, "step = True; allowed is a number",
+        "true in place of a number", "exit 2; line, key, value; not taken for 1",
+        broken=(MODEL, "frozen=True, strict=True", "frozen=True, strict=False"),
+    ),
+    case(
+        "end = 0.2\nstep = 1e-4", "end = 200.0\nstep = 1e-9", 3,
+        "step = 1e-09; allowed is at least 2e-07 s, a billionth",
+        "a run of so many steps that it would never end", "exit 2; line, value, the shortest step",
+        broken=(PROBLEMS, "if scenario.step < scenario.end / MOST_STEPS:", "if False:"),
     ),
     case(
         'coupling = "linear-implicit"', 'coupling = "linear"', 5,

@@ -1,0 +1,44 @@
+"""Values of an SSP are input as those of a scenario are: named, with what is allowed."""
+
+import pytest
+
+from tests.faults import fault
+from tests.orchestrator.foreign import refused, with_text
+
+CONTENTS = "orchestrator/ssp/contents.py"
+
+
+def value(name, number):
+    return f'name="{name}">\n      <ssv:Real value="{number}" />'
+
+
+def case(member, old, new, words, name, outcome, *, broken):
+    return pytest.param(member, old, new, words, id=name, marks=fault("input", name, outcome, broken=broken))
+
+
+@pytest.mark.parametrize(
+    ("member", "old", "new", "words"),
+    [
+        case(
+            "resources/rotor.ssv",
+            value("wheel[2].unbalance_phase", "0.0"),
+            value("wheel[2].unbalance_phase", "90.0"),
+            "unbalance.at.wheel-2.phase = 90.0; allowed is a number of at most 6.3 rad; did you give deg",
+            "an SSP with a phase in degrees",
+            "exit 2; wheel, value, range, the likely slip",
+            broken=("orchestrator/scenario.py", "Field(ge=-6.3, le=6.3,", "Field("),
+        ),
+        case(
+            "resources/front.ssv",
+            'name="viscosity"',
+            'name="viscosty"',
+            "front: viscosty is no variable of bearing_v3.fmu; did you mean 'viscosity'?",
+            "an SSP with a misspelt parameter",
+            "exit 2; component, parameter, FMU, the likely spelling",
+            broken=(CONTENTS, 'hint = "" if variable else', 'hint = "" if True else'),
+        ),
+    ],
+)
+def test_a_fault_in_an_ssp(member, old, new, words, small_ssp, small_fmus, room, tmp_path):
+    path = with_text(small_ssp, tmp_path / "my.ssp", member, old, new)
+    assert words in refused(path, room, small_fmus)
