@@ -23,6 +23,9 @@ EXPLICIT_STEPS = {
 }
 """Of the explicit ones, down to where they are accurate or a minute is not enough [s]."""
 
+CONTROLLED = {"step": 1.2e-3, "tolerances": (0.2, 0.1, 0.05, 0.03, 0.02, 0.01)}
+"""Of linear-implicit with step control: longest macro step [s], and largest relative defects."""
+
 WANTED = 0.01
 
 
@@ -45,6 +48,12 @@ def couplings(case: Case, exact: Solution) -> tuple[dict[str, list[Cost]], list[
             cost = Cost(error, timed.result.evaluations, timed.cpu)
             costs.setdefault(name, []).append(cost)
             rows.append(row(name, step, error, cost.evaluations, timed.cpu, timed.wall))
+    for tolerance in CONTROLLED["tolerances"]:
+        timed = run(case, coupling="linear-implicit", step=CONTROLLED["step"], tolerance=tolerance)
+        error = rms_error(timed.forces, exact.forces)
+        cost = Cost(error, timed.result.evaluations, timed.cpu)
+        costs["linear-implicit"].append(cost)
+        rows.append(row("  with tolerance", tolerance, error, cost.evaluations, timed.cpu, timed.wall))
     return costs, rows
 
 

@@ -19,7 +19,7 @@ from orchestrator.equilibrium import Start, find_start
 from orchestrator.fmu_file import FmuStore
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Result, Stage, simulate
+from orchestrator.simulate import Execution, Result, Stage, simulate
 from rotor_fmu.train import Train
 from tests.monolithic.holistic import Holistic, holistic_model
 
@@ -104,10 +104,10 @@ def prepare(source: str, **overrides: Any) -> Case:
             system.close()
 
 
-def run(case: Case, *, options: Mapping[str, Any] | None = None, **changes: Any) -> TimedRun:
+def run(case: Case, *, execution: Execution | None = None, **changes: Any) -> TimedRun:
     """Run a case through the FMUs.
 
-    Changes are `coupling`, `step` and other keys of the scenario; options go to `simulate`.
+    Changes are `coupling`, `step` and other keys of the scenario; one thread unless `execution` has more.
     """
     scenario = case.scenario(**changes)
     clocks: list[tuple[float, float]] = []
@@ -117,7 +117,7 @@ def run(case: Case, *, options: Mapping[str, Any] | None = None, **changes: Any)
         if stage is Stage.RUN and (time == 0.0 or time >= scenario.end):
             clocks.append((perf_counter(), process_time()))
 
-    result = simulate(scenario, fmu_folder(train_of(scenario)), watch, **(options or {}))
+    result = simulate(scenario, fmu_folder(train_of(scenario)), watch, execution or Execution())
     clocks.append((perf_counter(), process_time()))  # for a run that failed before its end
     (wall, cpu), (wall_end, cpu_end) = clocks[0], clocks[1]
     return TimedRun(result, wall_end - wall, cpu_end - cpu)
