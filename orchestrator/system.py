@@ -13,6 +13,7 @@ from orchestrator.errors import PortError
 from orchestrator.graph import Connection, Graph, Group
 from orchestrator.rollback import Rollback
 from orchestrator.unit import Unit
+from rotor_fmu.wording import likely
 
 Array = NDArray[np.float64]
 
@@ -195,11 +196,15 @@ def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
 
 
 def _differences(unit: Unit, variables: Iterable[port.Variable]) -> Iterator[str]:
+    variables = tuple(variables)
+    others = unit.file.variables.keys() - {variable.name for variable in variables}
     for wanted in variables:
         found = unit.file.variables.get(wanted.name)
         where = f"{unit.file.path}: {wanted.name}"
         if found is None:
-            yield f"{where} is missing ({wanted.causality}, {wanted.unit or 'dimensionless'})"
+            hint = likely(wanted.name, sorted(others)).strip()
+            kind = f"{wanted.causality}, {wanted.unit or 'dimensionless'}"
+            yield f"{where} is missing ({kind})" + (f"; {hint}" if hint else "")
         elif found.causality != wanted.causality or found.type != wanted.kind:
             yield f"{where} is {found.causality} {found.type}, not {wanted.causality} {wanted.kind}"
         elif (found.unit or "") not in ("", wanted.unit):

@@ -27,7 +27,7 @@ def unresolved(record: xr.Dataset) -> str:
     Returns
     -------
     str
-        Empty, or what was missed and at which bearing the most.
+        Empty, or what was missed, at which bearing the most, and when and in which state there.
     """
     order = ("time", "bearing")
     defect = record["defect_max"].transpose(*order).values
@@ -37,8 +37,21 @@ def unresolved(record: xr.Dataset) -> str:
     share = float(np.sqrt(np.mean(missed**2)))
     if share <= UNRESOLVED:
         return ""
-    worst = record["bearing"].values[int(np.argmax(missed))]
+    bearing = int(np.argmax(missed))
+    sample = int(np.argmax(np.nan_to_num(defect[:, bearing])))
     return (
-        f"the coupling missed {100.0 * share:.3g} % of the bearing forces (RMS), most at {worst}; "
+        f"the coupling missed {100.0 * share:.3g} % of the bearing forces (RMS), most at "
+        f"{record['bearing'].values[bearing]}{_state(record.isel(bearing=bearing, time=sample))}; "
         f"allowed are {100.0 * UNRESOLVED:.3g} %"
+    )
+
+
+def _state(at: xr.Dataset) -> str:
+    """Say when, and where the journal was then, as far as the record knows."""
+    if "time" not in at or "eccentricity" not in at:
+        return ""
+    tilt = 1e6 * (at["tilt"].values - at["offset"].values[2:])
+    return (
+        f", worst at t = {float(at['time']):.6g} s (eccentricity ratio {float(at['eccentricity']):.4g}, "
+        f"tilts {tilt[0]:.4g} and {tilt[1]:.4g} urad, least gap {1e6 * float(at['least_gap']):.4g} um)"
     )

@@ -23,7 +23,9 @@ from orchestrator.figures.campbell import free_figure
 from orchestrator.fmu_file import FmuStore
 from orchestrator.outcome import Outcome
 from orchestrator.scenario_file import load_scenario, train_of
+from orchestrator.unit import Status, UnitError
 from rotor_fmu.train_file import load_train
+from tests.faults import fault
 
 COMMANDS = {
     "campbell": ("campbell", "small", "--count", "4"),
@@ -182,15 +184,41 @@ def test_wrong_input_is_named_and_leaves_nothing(tmp_path, monkeypatch, argument
     assert list(tmp_path.iterdir()) == []
 
 
-def test_no_equilibrium_has_its_own_exit_status(folder, tmp_path, monkeypatch):
+OPTIONS = "orchestrator/cli_options.py"
+FAILURES = [
+    pytest.param(
+        EquilibriumError("front: no film at the trial position"),
+        Outcome.NO_EQUILIBRIUM,
+        marks=fault(
+            "film",
+            "a linear analysis without an equilibrium to linearise at",
+            "exit 3; bearing, advice; nothing is written",
+            broken=(OPTIONS, "except EquilibriumError as error:", "except KeyError as error:"),
+        ),
+    ),
+    pytest.param(
+        UnitError("front", "fmi2GetReal", Status.DISCARD, "film failed: NO_SOLUTION"),
+        Outcome.FILM_FAILED,
+        marks=fault(
+            "film",
+            "a film that fails in a linear analysis",
+            "exit 11; bearing, reason, advice; nothing is written",
+            broken=(OPTIONS, "except UnitError as error:", "except KeyError as error:"),
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize(("error", "outcome"), FAILURES)
+def test_a_start_that_fails_has_its_own_exit_status(folder, tmp_path, monkeypatch, error, outcome):
     def fail(*_):
-        raise EquilibriumError("front: no film at the trial position")
+        raise error
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(linear_case, "operating_point", fail)
     result = CliRunner().invoke(app, ["modes", "small", "--fmus", str(folder / "fmus")])
-    assert result.exit_code == exit_status.STATUS[Outcome.NO_EQUILIBRIUM]
-    assert "front: no film" in result.output
+    assert result.exit_code == exit_status.STATUS[outcome]
+    assert f"error: {error}. {outcome.advice}" in result.output
     assert list(tmp_path.iterdir()) == []
 
 

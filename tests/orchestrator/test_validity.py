@@ -9,6 +9,7 @@ import xarray as xr
 from orchestrator.exit_status import of_outcome
 from orchestrator.outcome import Outcome
 from orchestrator.validity import UNRESOLVED, unresolved
+from tests.faults import fault
 
 
 def _record(defect, force=1.0):
@@ -20,6 +21,12 @@ def _record(defect, force=1.0):
     )
 
 
+@fault(
+    "coupling",
+    "an explicit coupling that is unstable and yet reaches its end",
+    "unresolved, exit 10; share of the forces missed, the worst bearing, when and in which state",
+    broken=("orchestrator/validity.py", "if share <= UNRESOLVED:", "if True:"),
+)
 @pytest.mark.parametrize(("share", "fails"), [(0.99 * UNRESOLVED, False), (1.01 * UNRESOLVED, True)])
 def test_the_limit_is_a_share_of_the_forces(share, fails):
     """On both sides of the limit; scaling forces and defects alike changes nothing."""
@@ -29,6 +36,19 @@ def test_the_limit_is_a_share_of_the_forces(share, fails):
 
 def test_the_worst_bearing_is_named():
     assert "b1" in unresolved(_record([[0.0, 0.8], [0.1, 0.9]]))
+
+
+def test_the_worst_instant_is_given_with_the_state_of_the_journal():
+    record = _record([[0.1, 0.2], [0.1, 0.9], [0.0, 0.3]])
+    dims = ("time", "bearing")
+    record = record.assign_coords(time=[0.0, 0.5, 1.0]).assign(
+        eccentricity=(dims, np.full((3, 2), 0.75)),
+        least_gap=(dims, np.full((3, 2), 2.5e-5)),
+        tilt=((*dims, "axis"), np.full((3, 2, 2), 3e-5)),
+        offset=(("bearing", "coordinate"), np.tile([0.0, 0.0, 1e-5, -1e-5], (2, 1))),
+    )
+    state = "b1, worst at t = 0.5 s (eccentricity ratio 0.75, tilts 20 and 40 urad, least gap 25 um)"
+    assert state in unresolved(record)
 
 
 def test_the_outcome_is_no_success():
