@@ -110,7 +110,10 @@ def run(
             "only: gauss-seidel, jacobi.",
         ),
     ] = None,
-    step: Annotated[float | None, typer.Option(metavar="SECONDS", help="Macro step.")] = None,
+    step: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="Macro step; fixed, unless --tol is given with it."),
+    ] = None,
     tol: Annotated[
         float | None,
         typer.Option(metavar="SHARE", help="Halve steps whose relative defect exceeds it, e.g. 1e-3."),

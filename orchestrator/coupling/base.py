@@ -111,3 +111,15 @@ class Memoryless:
     @memory.setter
     def memory(self, arrays: dict[str, NDArray[Any]]) -> None:
         pass
+
+
+class Sequential(Memoryless):
+    """One group after the other, each on the newest values."""
+
+    def advance(self, system: Coupled, time: float, step: float) -> Advance:
+        """Feed, step and read group by group."""
+        for group in system.groups:
+            group.feed()
+            group.step(time, step)
+            group.fetch()
+        return Advance(1, system.defect())

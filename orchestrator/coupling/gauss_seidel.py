@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from orchestrator.coupling.base import Advance, Coupled, Memoryless
+from orchestrator.coupling.base import Sequential
 from orchestrator.system import Wiring
 
 
-class GaussSeidel(Memoryless):
+class GaussSeidel(Sequential):
     """Explicit and sequential, rotor then bearings; force only."""
 
     name = "gauss-seidel"
     wiring = Wiring.FORCE
-
-    def advance(self, system: Coupled, time: float, step: float) -> Advance:
-        """Feed, step and read group by group."""
-        for group in system.groups:
-            group.feed()
-            group.step(time, step)
-            group.fetch()
-        return Advance(1, system.defect())

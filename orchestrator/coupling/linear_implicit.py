@@ -12,20 +12,12 @@ milliseconds, the defect tells, and a tolerance (`orchestrator.stepping`) shorte
 
 from __future__ import annotations
 
-from orchestrator.coupling.base import Advance, Coupled, Memoryless
+from orchestrator.coupling.base import Sequential
 from orchestrator.system import Wiring
 
 
-class LinearImplicit(Memoryless):
+class LinearImplicit(Sequential):
     """Rotor on the affine law, then the bearings on the rotor's new state."""
 
     name = "linear-implicit"
     wiring = Wiring.LAW
-
-    def advance(self, system: Coupled, time: float, step: float) -> Advance:
-        """Feed, step and read group by group."""
-        for group in system.groups:
-            group.feed()
-            group.step(time, step)
-            group.fetch()
-        return Advance(1, system.defect())

@@ -12,7 +12,7 @@ from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
 from orchestrator.result_folder import check_folder
 from orchestrator.run_command import check_bearing, conclude
-from orchestrator.simulate import Execution, Result
+from orchestrator.simulate import Execution, Result, default_threads
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 from orchestrator.trust import require_trust
@@ -66,5 +66,6 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
             show_progress(prepared.scenario.end, console) as show,
             interrupt_between_steps(show) as progress,
         ):
-            result = prepared.simulate(progress, Execution(watchdog=watchdog))
+            threads = request.threads or default_threads(prepared.scenario, prepared.train)
+            result = prepared.simulate(progress, Execution(threads=threads, watchdog=watchdog))
         return finish(result)

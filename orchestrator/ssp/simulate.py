@@ -80,7 +80,7 @@ class SspRun:
         execution.watchdog.partial = partial(failed_start, self.scenario, self.train, Outcome.UNIT_HUNG)
         execution.watchdog.leftovers += [self._store.remove, self._folder.cleanup]
         announce(Stage.LOAD, 0.0)
-        system = _assemble(self._contents, self.scenario, self.path)
+        system = _assemble(self._contents, self.scenario, self.path, execution.threads)
         try:
             result = carry_out(
                 self.scenario,
@@ -109,14 +109,15 @@ class SspRun:
         self.close()
 
 
-def _assemble(contents: Contents, scenario: Scenario, path: Path) -> System:
+def _assemble(contents: Contents, scenario: Scenario, path: Path, threads: int) -> System:
     units: list[Unit] = []
     try:
         names = ["rotor", *(seat.name for seat in contents.train.bearings)]
         components = [contents.rotor, *contents.bearings]
         for name, component in zip(names, components, strict=True):
-            units.append(Unit(contents.files[component.name], name))
+            units.append(Unit(contents.files[component.name], name, release_gil=threads > 1))
         system = System(units[0], units[1:], contents.wiring)
+        system.bearing_group.employ(threads)
         for unit, component in zip(units, components, strict=True):
             unit.set_parameters(parameters(component, unit.file, path))
         system.set_speed(float(value_of(contents, contents.rotor, "speed")))

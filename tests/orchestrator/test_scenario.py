@@ -138,6 +138,14 @@ def test_overrides_merge_key_by_key_and_take_out(scenario_file):
         with_overrides(scenario, {"end": 0})
 
 
+def test_a_tolerance_belongs_to_the_step_and_coupling_beside_it():
+    assert load_scenario("paper").tolerance == load_scenario("paper", {"end": 1.5}).tolerance == 0.02
+    for change in ({"step": 5e-5}, {"coupling": "gauss-seidel"}):
+        assert load_scenario("paper", change).tolerance is None
+        assert with_overrides(load_scenario("paper"), change).tolerance is None
+        assert load_scenario("paper", {**change, "tolerance": 1e-3}).tolerance == 1e-3
+
+
 def test_a_train_is_found_beside_the_scenario(tmp_path, scenario_file):
     from rotor_fmu.train_file import DATA
 

@@ -10,7 +10,7 @@ from fmus.build import build
 from orchestrator.errors import ScenarioError
 from orchestrator.outcome import Outcome
 from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
+from orchestrator.simulate import Execution, simulate
 from orchestrator.ssp.export import export
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.simulate import SspRun
@@ -62,9 +62,10 @@ def edited(source, target, changes):
     [
         {},
         {"reduction": "guyan", "film": {"columns": 32, "rows": 6}},
+        {"tolerance": 2e-3, "step": 4e-4},
         {"event": None, "unbalance": {"grade": 1e-3, "at": {"wheel-1": {"unbalance": 0.02, "phase": 0.3}}}},
     ],
-    ids=["as it comes", "reduction and film", "no fracture"],
+    ids=["as it comes", "reduction and film", "controlled steps", "no fracture"],
 )
 def test_scenario_to_ssp_to_run_equals_the_run_of_the_scenario(settings, fmus, tmp_path):
     scenario = small(**settings)
@@ -82,6 +83,21 @@ def test_force_only_runs_as_the_explicit_coupling_of_the_scenario(coupling, fmus
     direct = simulate(small(**settings), fmus).record
     back = run(exported[Wiring.FORCE], Outcome.UNRESOLVED, coupling=coupling, end=1e-3, step=1e-5)
     np.testing.assert_array_equal(back["force"].values, direct["force"].values)
+
+
+def test_threads_give_the_record_of_one(exported):
+    with SspRun(exported[Wiring.LAW]) as prepared:
+        two = prepared.simulate(execution=Execution(threads=2)).record
+    assert two.drop_attrs().identical(run(exported[Wiring.LAW]).drop_attrs())
+
+
+def test_step_control_goes_where_its_step_is_replaced(fmus, tmp_path):
+    path, force = export(small(tolerance=0.02), fmus, tmp_path / "small.ssp", "small")
+    for overrides, left in (({}, 0.02), ({"step": 5e-5}, None), ({"step": 5e-5, "tolerance": 1e-3}, 1e-3)):
+        with SspRun(path, overrides) as prepared:
+            assert prepared.scenario.tolerance == left
+    with SspRun(force) as prepared:
+        assert prepared.scenario.tolerance is None
 
 
 def test_two_exports_have_the_same_bytes(fmus, exported, tmp_path):
