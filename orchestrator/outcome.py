@@ -31,8 +31,8 @@ class Outcome(Enum):
     )
     FILM_FAILED = (
         "film-failed",
-        "The film of a bearing has no solution in the state that the journal reached; the message names the "
-        "bearing, its state and what to try.",
+        "The journal of a bearing went where its film has no solution; the message gives its state. Check "
+        "unbalance, clearance, viscosity and solid contact there, or take a smaller step.",
     )
     UNIT_HUNG = (
         "unit-hung",

@@ -198,7 +198,7 @@ def conclude(
         summary = replace(summary, certificate=certificate)
         result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
     console.print(SummaryTable(summary))
-    outcome, message = result.outcome, f"{summary.message} {summary.advice}"
+    outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
     if not outcome.ok:
         folder = partial_folder(folder)
     if outcome.ok or summary.phases:
