@@ -30,6 +30,8 @@ PATIENCE = 10.0
 """Times the budget before the time loop: there a first call may compile a film or reduce a shaft."""
 
 _PERIOD = 0.25  # s
+_WRITING = 600.0  # s, at most, to write what there is
+_SWIFT = 1e-4  # s, after which a unit that loops in Python gives way to the writing
 _C_NAMES = {"do_step": "fmi2DoStep", "__init__": "fmi2Instantiate"}
 
 
@@ -86,7 +88,7 @@ class Watchdog:
         calls: dict[int, tuple[FrameType, float]] = {}
         before = time.monotonic()
         while not self._awake.wait(period):
-            self._arm_last_resort()
+            _arm_last_resort(2.0 * self.budget * self.patience + 1.0)
             now = time.monotonic()
             # A suspended process has not waited for its unit.
             elapsed, before = min(now - before, 2.0 * period), now
@@ -102,15 +104,10 @@ class Watchdog:
         with suppress(RuntimeError):
             faulthandler.cancel_dump_traceback_later()
 
-    def _arm_last_resort(self) -> None:
-        """Let the C runtime end the process where a unit hangs with Python's lock in its hands."""
-        if sys.__stderr__ is not None:
-            limit = 2.0 * self.budget * self.patience + 1.0
-            with suppress(ValueError, OSError, RuntimeError):  # without a file behind it
-                faulthandler.dump_traceback_later(limit, exit=True, file=sys.__stderr__)
-
     def _trip(self, frame: FrameType, spent: float) -> None:
         self.tripped = True
+        _arm_last_resort(_WRITING)
+        sys.setswitchinterval(_SWIFT)
         stuck = frame.f_locals.get("self")
         name = stuck.name if isinstance(stuck, unit.Unit) else "a unit"
         call = frame.f_locals.get("function") or _C_NAMES.get(frame.f_code.co_name, frame.f_code.co_name)
@@ -119,6 +116,13 @@ class Watchdog:
             remove()
         if self.partial is not None and self._give_up is not None:
             self._give_up(self.partial(message))
+
+
+def _arm_last_resort(limit: float) -> None:
+    """Let the C runtime end the process where a unit hangs with Python's lock in its hands."""
+    if sys.__stderr__ is not None:
+        with suppress(ValueError, OSError, RuntimeError):  # without a file behind it
+            faulthandler.dump_traceback_later(limit, exit=True, file=sys.__stderr__)
 
 
 def leave(conclude: Callable[[], int]) -> NoReturn:

@@ -1,5 +1,6 @@
 """Small units with known answers, built once a session."""
 
+import shutil
 import tempfile
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from orchestrator.scenario_file import load_scenario, train_of
 from orchestrator.ssp.export import export
 
 UNITS = Path(__file__).parent / "units"
+EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
 @pytest.fixture(scope="session")
@@ -67,3 +69,13 @@ def room(tmp_path, monkeypatch):
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
+
+
+@pytest.fixture(scope="session")
+def faulty(tmp_path_factory):
+    """A bearing of somebody else that fails as the environment variable FAULT says."""
+    folder = tmp_path_factory.mktemp("faulty")
+    for script in (UNITS / "faulty_bearing.py", EXAMPLES / "spring_bearing.py"):
+        shutil.copy(script, folder)
+    built = FmuBuilder.build_FMU(folder / "faulty_bearing.py", folder, [folder / "spring_bearing.py"])
+    return folder / built.name

@@ -1,4 +1,4 @@
-"""A bearing that works for some steps and then fails in the way that the environment variable FAULT names."""
+"""A bearing that works for some steps and then fails once, as the environment variable FAULT says."""
 
 import ctypes
 import math
@@ -7,18 +7,21 @@ import time
 
 from spring_bearing import OUTPUTS, SpringBearing
 
-LONG = 20.0  # s; without a guard the run ends well
+LONG = 12.0  # s; without a guard the run ends well
 BEGIN = 0.0015  # s
 
 
 class FaultyBearing(SpringBearing):
+    failed = False
+
     def exit_initialization_mode(self):
         if os.environ.get("FAULT") == "start":
             time.sleep(LONG)
         super().exit_initialization_mode()
 
     def do_step(self, current_time, step_size):
-        fault = os.environ.get("FAULT") if current_time >= BEGIN else None
+        fault = os.environ.get("FAULT") if current_time >= BEGIN and not self.failed else None
+        self.failed = self.failed or fault is not None
         if fault == "sleep":
             time.sleep(LONG)
         elif fault == "loop":

@@ -1,0 +1,118 @@
+"""Units that answer with nonsense, or with an error: the run ends by name, and the record stays."""
+
+from zipfile import ZipFile
+
+import pytest
+
+from fmus.archive import write_archive
+from orchestrator import exit_status
+from orchestrator.outcome import Outcome
+from orchestrator.record_files import read_record
+from orchestrator.unit import Status, Unit, UnitError
+from tests.faults import fault
+from tests.orchestrator.foreign import call, with_text
+
+UNIT = "orchestrator/unit.py"
+
+
+@pytest.fixture
+def run(small_fmus, tmp_path, monkeypatch):
+    """Run the small train with a bearing of somebody else, which fails as it is told."""
+    (tmp_path / "short.toml").write_text('train = "small"\nend = 0.01\n[record]\ninterval = 1e-4\n')
+
+    def start(bearing, how, *options):
+        monkeypatch.setenv("FAULT", how)
+        return call(
+            *("run", tmp_path / "short.toml", "--depth", "v3", "--depth-at", f"rear={bearing}", "--trust"),
+            *("--fmus", small_fmus, "--out", tmp_path / "out", "--no-figures", *options),
+        )
+
+    return start
+
+
+@fault(
+    "unit",
+    "an FMU that returns NaN",
+    "exit 6, `not-finite`; bearing, time; no NaN in the motion that is recorded",
+    broken=(
+        "orchestrator/stepping.py",
+        "if not (math.isfinite(size) and math.isfinite(system.journals.sum())):",
+        "if False:",
+    ),
+)
+def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
+    result = run(faulty, "nan")
+    assert result.exit_code == exit_status.STATUS[Outcome.NOT_FINITE], result.output
+    assert "not-finite (exit status 6): at t = 0.0015 s: rear: " in result.stderr
+    record = read_record(tmp_path / "out-partial")
+    assert record["displacement"].notnull().all() and record.attrs["status"] == "not-finite"
+
+
+@fault(
+    "unit",
+    "an FMU that breaks inside a step: error or fatal",
+    "exit 5, `unit-failed`; unit, time, what it logged; the record up to there",
+    broken=("orchestrator/unit_error.py", "if status is not Status.DISCARD:", "if False:"),
+)
+def test_a_unit_that_breaks(faulty, run, tmp_path):
+    result = run(faulty, "raise")
+    assert result.exit_code == exit_status.STATUS[Outcome.UNIT_FAILED], result.output
+    assert "unit-failed" in result.stderr and "rear: fmi2DoStep returned fatal" in result.stderr
+    assert "at t = 0.0015 s" in result.stderr
+    assert read_record(tmp_path / "out-partial").sizes["time"] == 16
+
+
+@fault(
+    "unit",
+    "an FMU that returns a status that FMI does not know",
+    "it counts as fatal: UnitError with outcome unit-failed",
+    broken=(UNIT, " if status in _STATUSES else Status.FATAL", ""),
+)
+def test_an_unknown_status(store, toy_fmus):
+    unit = Unit(store.open(toy_fmus / "spring_damper.fmu"), "front")
+    with pytest.raises(UnitError, match="front: fmi2DoStep returned fatal") as info:
+        unit._fail("fmi2DoStep", 17)
+    assert info.value.outcome is Outcome.UNIT_FAILED and info.value.status is Status.FATAL
+    assert unit.failed
+
+
+@fault(
+    "unit",
+    "an FMU without a library for this platform",
+    "exit 2; file and what is missing",
+    broken=(
+        UNIT,
+        "except Exception as error:  # fmpy raises bare exceptions here",
+        "except KeyError as error:",
+    ),
+)
+def test_a_unit_of_another_platform(faulty, run, tmp_path):
+    with ZipFile(faulty) as archive:
+        names = [name for name in archive.namelist() if not name.startswith("binaries/")]
+        write_archive(tmp_path / "bare.fmu", {name: archive.read(name) for name in names})
+    result = run(tmp_path / "bare.fmu", "")
+    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert "bare.fmu: cannot be instantiated as rear: " in result.stderr
+
+
+@fault(
+    "unit",
+    "an FMU for model exchange, or of another version of FMI",
+    "exit 2; file, `not an FMI 2.0 co-simulation unit` or the schema's complaint",
+    broken=(
+        "orchestrator/fmu_file.py",
+        'if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:',
+        "if False:",
+    ),
+)
+def test_a_unit_of_another_kind(small_fmus, run, tmp_path):
+    source = small_fmus / "bearing_v3.fmu"
+    with ZipFile(source) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    begin = text.index("<CoSimulation")
+    element = text[begin : text.index("/>", begin) + 2]
+    exchange = '<ModelExchange modelIdentifier="bladeloss_bearing_v3"/>'
+    path = with_text(source, tmp_path / "exchange.fmu", "modelDescription.xml", element, exchange)
+    result = run(path, "")
+    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert "exchange.fmu: not an FMI 2.0 co-simulation unit" in result.stderr
