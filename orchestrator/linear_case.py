@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -139,10 +139,10 @@ class LinearCase:
     @property
     def unbalance(self) -> NDArray[np.complex128]:
         """Nominal unbalance of each wheel, U exp(i phase) in kg m."""
-        settings = self.scenario.unbalance
-        amounts = np.array(self.train.nominal_unbalance)
+        settings, train = self.scenario.unbalance, self.train
         if settings.grade is not None:
-            amounts *= settings.grade / self.train.balance_grade
+            train = replace(train, balance_grade=settings.grade)
+        amounts = np.array(train.nominal_unbalance)
         phases = np.array([wheel.unbalance_phase for wheel in self.train.wheels])
         for index, wheel in enumerate(self.train.wheels):
             if wheel.name in settings.at:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from fmus import port
@@ -40,12 +41,12 @@ def rotor_parameters(scenario: Scenario, train: Train) -> Values:
     values: Values = {"reduction": scenario.reduction}
     if scenario.ledger:
         values["track_work"] = True
-    grade = scenario.unbalance.grade
-    scale = 1.0 if grade is None else grade / train.balance_grade
-    event = scenario.event
+    grade, event = scenario.unbalance.grade, scenario.event
+    if grade is not None:
+        train = replace(train, balance_grade=grade)
     values["fracture.time"] = scenario.end if event is None else event.time
     for index, (wheel, nominal) in enumerate(zip(train.wheels, train.nominal_unbalance, strict=True), 1):
-        unbalance, phase = scale * nominal, wheel.unbalance_phase
+        unbalance, phase = nominal, wheel.unbalance_phase
         override = scenario.unbalance.at.get(wheel.name)
         if override is not None:
             unbalance, phase = override.unbalance, override.phase

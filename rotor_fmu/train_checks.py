@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
+from pydantic import ValidationError
+
 from rotor_fmu.film_capacity import ECCENTRICITY, most_load
 from rotor_fmu.toml_source import Problem
 from rotor_fmu.train import Train
-from rotor_fmu.train_schema import BearingEntry, Placed, WheelEntry
+from rotor_fmu.train_schema import BearingEntry, Placed, WheelEntry, explain
 
 POSITION_TOLERANCE = 1e-6
 """How far z may be off the boundary of two shoulders [m]."""
@@ -66,6 +68,23 @@ def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterat
         found += _body(entry)
     for key, text in found:
         yield (kind, index, key), f"{kind} {entry.name!r}: {text}"
+
+
+def film_problems(values: Mapping[str, float]) -> Iterator[str]:
+    """Yield what is wrong with the data of one film, wherever they come from.
+
+    Parameters
+    ----------
+    values : mapping
+        By the keys of a bearing in a train file, from diameter to friction.
+    """
+    raw = {"name": "bearing", "z": 0.0, **values}
+    try:
+        entry = BearingEntry.model_validate(raw)
+    except ValidationError as error:
+        yield from (text for _, text in explain(error, raw, BearingEntry))
+    else:
+        yield from (text for _, text in _film(entry))
 
 
 def _position(shaft: Train, entry: Placed) -> Iterator[tuple[str, str]]:

@@ -7,27 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from fmus import port
 from fmus.variable import Value
-from orchestrator.coupling import SCHEMES
-from orchestrator.errors import FmuError, ScenarioError
+from orchestrator.errors import FmuError
 from orchestrator.fmu_file import FmuFile, FmuStore
 from orchestrator.graph import Connection
 from orchestrator.safe_archive import ArchiveError, inside
-from orchestrator.scenario import (
-    DEPTHS,
-    Scenario,
-)
-from orchestrator.scenario_file import replaced
-from orchestrator.scenario_problems import shape_problems, time_problems
 from orchestrator.ssp.structure import Component, SspError, Structure
 from orchestrator.system import Wiring, port_connections
 from rotor_fmu.train import Train
 from rotor_fmu.wording import likely
 
-DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
 _LISTED = 12  # of the connections in a message
 
 
@@ -165,126 +155,3 @@ def value_of(contents: Contents, component: Component, name: str) -> Any:
     """Return a start value: of the SSP, else of the FMU."""
     variable = contents.files[component.name].variables[name]
     return component.parameters.get(name, variable.start)
-
-
-def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) -> Scenario:
-    """Describe an SSP as a scenario, for record and summary.
-
-    Parameters
-    ----------
-    contents : Contents
-        The SSP; where its parameters say more than a scenario can, they count and not this.
-    overrides : mapping
-        Values of ``end``, ``step``, ``coupling`` and ``tolerance`` in place of those of the SSP, as in
-        `orchestrator.scenario_file.load_scenario`.
-    path : Path
-        The archive.
-
-    Raises
-    ------
-    SspError
-        When the coupling does not fit the connections.
-    ScenarioError
-        When times or speeds contradict one another.
-    """
-    structure, train = contents.structure, contents.train
-    usual = "linear-implicit" if contents.wiring is Wiring.LAW else "gauss-seidel"
-    coupling = overrides.get("coupling") or structure.coupling or usual
-    if coupling not in SCHEMES or SCHEMES[coupling].wiring is not contents.wiring:
-        allowed = [name for name, scheme in SCHEMES.items() if scheme.wiring is contents.wiring]
-        raise SspError(
-            f"{path}: coupling {coupling!r}: the connections carry: {contents.wiring.value}; "
-            f"allowed is {' or '.join(allowed)}"
-        )
-    end = overrides.get("end") or structure.end or DEFAULT_END
-    own = {} if structure.tolerance is None else {"tolerance": structure.tolerance}
-    first = contents.bearings[0]
-    depths = {
-        seat.name: _depth(contents.files[c.name])
-        for seat, c in zip(train.bearings, contents.bearings, strict=True)
-    }
-    common = next((depth for depth in depths.values() if depth in DEPTHS), DEPTHS[0])
-    film = {
-        key: _whole(value_of(contents, first, f"film.{key}"))
-        for key in ("columns", "rows")
-        if f"film.{key}" in contents.files[first.name].variables
-    }
-    values: dict[str, Any] = {
-        "title": structure.title or structure.name,
-        "train": train.name,
-        "reduction": value_of(contents, contents.rotor, "reduction"),
-        "depth": common,
-        "depth_at": {name: depth for name, depth in depths.items() if depth != common},
-        "unbalance": _unbalance(contents),
-        "event": _event(contents, end),
-        "end": end,
-        "step": overrides.get("step") or structure.step or DEFAULT_STEP,
-        "coupling": coupling,
-        "tolerance": replaced(own, overrides).get("tolerance"),
-        "film": film,
-        "record": {} if structure.record_interval is None else {"interval": structure.record_interval},
-        "analysed_bearing": structure.analysed_bearing,
-        "folder": path.parent,
-    }
-    try:
-        scenario = Scenario(**values)
-    except ValidationError as error:
-        raise ScenarioError(str(path), [text for _, text in shape_problems(error)]) from None
-    problems = [text for _, text in time_problems(scenario, train)] + list(_speed_problems(contents))
-    if problems:
-        raise ScenarioError(str(path), problems)
-    return scenario
-
-
-def _speed_problems(contents: Contents) -> Iterator[str]:
-    speed = float(value_of(contents, contents.rotor, port.SPEED))
-    for component in contents.bearings:
-        other = float(value_of(contents, component, port.SPEED))
-        if other != speed:
-            yield f"{component.name}: speed = {other!r}; allowed is that of the rotor, {speed!r} rad/s"
-
-
-def _depth(file: FmuFile) -> str:
-    """Return the depth of a bearing of bladeloss; of others the file name."""
-    depth = str(file.description.modelName).removeprefix("bladeloss_bearing_")
-    return depth if depth in DEPTHS else file.path.name
-
-
-def _wheel_values(contents: Contents, key: str) -> list[float]:
-    wheels = range(1, len(contents.train.wheels) + 1)
-    return [float(value_of(contents, contents.rotor, f"wheel[{j}].{key}")) for j in wheels]
-
-
-def _whole(value: Any) -> float:
-    """Return a number without its fraction of zero; one that has another is refused later, by its name."""
-    number = float(value)
-    return int(number) if number.is_integer() else number
-
-
-def _unbalance(contents: Contents) -> dict[str, Any]:
-    train = contents.train
-    values = zip(
-        train.wheels,
-        train.nominal_unbalance,
-        _wheel_values(contents, "unbalance"),
-        _wheel_values(contents, "unbalance_phase"),
-        strict=True,
-    )
-    return {
-        "at": {
-            wheel.name: {"unbalance": value, "phase": phase}
-            for wheel, nominal, value, phase in values
-            if (value, phase) != (nominal, wheel.unbalance_phase)
-        }
-    }
-
-
-def _event(contents: Contents, end: float) -> dict[str, Any] | None:
-    """The fracture before the end; of several wheels that with the largest unbalance."""
-    lost, phases = (_wheel_values(contents, f"blade_{key}") for key in ("unbalance", "phase"))
-    time = float(value_of(contents, contents.rotor, "fracture.time"))
-    largest = max(range(len(lost)), key=lost.__getitem__)
-    if not (lost[largest] > 0.0 and time < end):
-        return None
-    wheel = contents.train.wheels[largest].name
-    return {"wheel": wheel, "unbalance": lost[largest], "phase": phases[largest], "time": time}

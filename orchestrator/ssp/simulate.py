@@ -18,8 +18,9 @@ from orchestrator.outcome import Outcome
 from orchestrator.parameters import offset_names, start_names
 from orchestrator.scenario import Scenario
 from orchestrator.simulate import Execution, Progress, Result, Stage, Stopwatch, carry_out, failed_start
-from orchestrator.ssp.contents import Contents, as_scenario, parameters, understand, value_of
+from orchestrator.ssp.contents import Contents, parameters, understand, value_of
 from orchestrator.ssp.reader import read_ssp
+from orchestrator.ssp.scenario import as_scenario
 from orchestrator.system import System
 from orchestrator.unit import Unit, UnitError
 from rotor_fmu.train import Train

@@ -10,11 +10,12 @@ from fmus.sources import source_files
 
 REPOSITORY = Path(__file__).parents[2]
 PHYSICS = ("rotor_fmu", "bearing_fmu")
-# Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time for
-# a unit to step in.
+# Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time
+# for a unit to step in.
 OF_PHYSICS_FOR_THE_MASTER = {
     "rotor_fmu.train",
     "rotor_fmu.train_file",
+    "rotor_fmu.train_checks",
     "rotor_fmu.toml_source",
     "rotor_fmu.wording",
     "rotor_fmu.linear",

@@ -1,10 +1,12 @@
 """Scenarios: what is bundled, what is refused and in which words, overrides, round trip."""
 
 import tomllib
+from dataclasses import replace
 
 import pytest
 
 from orchestrator.errors import ScenarioError
+from orchestrator.parameters import rotor_parameters
 from orchestrator.scenario_file import (
     bundled_scenarios,
     load_scenario,
@@ -168,3 +170,13 @@ def test_the_analysed_bearing_is_one_of_the_train(scenario_file):
     assert 'analysed_bearing = "rear"' in scenario_toml(load_scenario(path))
     (problem,) = problems(path, analysed_bearing="raer")
     assert problem.startswith("analysed_bearing = 'raer': no such bearing; did you mean 'rear'?")
+
+
+def test_a_balance_grade_replaces_that_of_the_train_also_where_it_is_zero(scenario_file):
+    """The unbalance follows from the grade alone, not from its ratio to the train's."""
+    scenario = load_scenario(scenario_file(GOOD + "[unbalance]\ngrade = 5e-3\n"))
+    train = train_of(scenario)
+    expected = replace(train, balance_grade=5e-3).nominal_unbalance
+    for own in (train, replace(train, balance_grade=0.0)):
+        values = rotor_parameters(scenario, own)
+        assert [values[f"wheel[{j}].unbalance"] for j in (1, 2, 3)] == list(expected)

@@ -37,6 +37,24 @@ def case(member, old, new, words, name, outcome, *, broken):
             "exit 2; component, parameter, FMU, the likely spelling",
             broken=(CONTENTS, 'hint = "" if variable else', 'hint = "" if True else'),
         ),
+        case(
+            "resources/rear.ssv",
+            value("clearance", "0.00022"),
+            value("clearance", "0.22"),
+            "rear: clearance = 0.22; allowed is a number of at most 0.1 m; did you give mm?",
+            "an SSP with a clearance in mm",
+            "exit 2; component, value, range, the likely slip",
+            broken=("orchestrator/ssp/scenario.py", "problems += _film_problems(contents)", "pass"),
+        ),
+        case(
+            "resources/rear.ssv",
+            value("speed", "314.1592653589793"),
+            value("speed", "157.1"),
+            "rear: speed = 157.1; allowed is that of the rotor, 314.1592653589793 rad/s",
+            "an SSP whose bearing turns at another speed than its rotor",
+            "exit 2; component, both speeds",
+            broken=("orchestrator/ssp/scenario.py", "if other != speed:", "if False:"),
+        ),
     ],
 )
 def test_a_fault_in_an_ssp(member, old, new, words, small_ssp, small_fmus, room, tmp_path):
