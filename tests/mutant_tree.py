@@ -150,6 +150,7 @@ def _child(to: Connection, root: Path, base: Path, log: Path, work: Callable[...
     sys.path[:] = [str(root), *(p for p in sys.path if Path(p or ".").resolve() not in own)]
     for name in [n for n in sys.modules if n.partition(".")[0] == "tests"]:
         del sys.modules[name]
+    os.environ["HYPOTHESIS_PROFILE"] = "mutant"  # see tests/properties/conftest.py
     os.environ["PYTEST_ADDOPTS"] = f"--basetemp={base} -p no:cacheprovider"
     to.send(work(*given))
 
