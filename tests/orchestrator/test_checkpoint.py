@@ -19,6 +19,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.record_files import read_record
 from orchestrator.scenario_file import load_scenario, train_of
 from orchestrator.simulate import Execution, Stage, simulate
+from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -79,6 +80,12 @@ def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
     assert result.record.identical(simulate(scenario, toy).record)
 
 
+@fault(
+    "machine",
+    "a full disk while a checkpoint is written",
+    "the checkpoint before stays whole",
+    broken=("orchestrator/checkpoint.py", 'fresh = path.with_name(path.name + ".part")', "fresh = path"),
+)
 def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     path = tmp_path / checkpoint.FILE
     checkpoint.write(path, {"version": 1, "about": {}, "time": 1.0}, {"x": np.arange(3.0)})
@@ -94,6 +101,12 @@ def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     assert checkpoint.read(tmp_path).time == 1.0
 
 
+@fault(
+    "process",
+    "no checkpoint, or one of another version",
+    "exit 2; file, what it is and what is read",
+    broken=("orchestrator/checkpoint.py", "if version != _VERSION:", "if False:"),
+)
 def test_missing_and_damaged_checkpoints_are_said(tmp_path):
     with pytest.raises(CheckpointError, match="only a run with --checkpoint can be resumed"):
         checkpoint.read(tmp_path)
@@ -105,6 +118,12 @@ def test_missing_and_damaged_checkpoints_are_said(tmp_path):
         checkpoint.read(tmp_path)
 
 
+@fault(
+    "process",
+    "a checkpoint of other FMUs than those at hand",
+    "CheckpointError; FMU, its GUID and the one found",
+    broken=("orchestrator/checkpoint.py", "if saved != found:", "if False:"),
+)
 def test_a_checkpoint_of_other_fmus_is_refused(toy, tmp_path):
     scenario = toy_scenario(tmp_path)
     with pytest.raises(Killed):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from orchestrator.compare_command import status_of
 from orchestrator.comparison.processes import DIED, cores, run_all
 from orchestrator.comparison.progress import show_runs
 from orchestrator.comparison.worker import Ended, Progressed, Task
@@ -15,6 +16,7 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
 from orchestrator.scenario_file import load_scenario
 from orchestrator.simulate import Stage
+from tests.faults import fault
 
 FINISHED = Ended("finished", "", "", 0.3, 1.0)
 
@@ -72,6 +74,16 @@ def test_every_run_tells_its_progress_and_its_end(tmp_path):
         assert [said for who, said in heard if who == name] == [Progressed(Stage.RUN, 0.1), FINISHED]
 
 
+@fault(
+    "process",
+    "a worker that dies in `compare`",
+    "`process-died` with signal or exit code, exit 8; the others go on",
+    broken=(
+        "orchestrator/comparison/processes.py",
+        "end(run.task, message or _died(run))",
+        "end(run.task, message)",
+    ),
+)
 def test_a_process_that_dies_is_an_outcome_and_the_others_go_on(tmp_path):
     ended = run_all(tasks(tmp_path, "v1", "v2", "v3"), 3, lambda *_: None, work=two_die)
     assert [end.outcome for end in ended.values()] == ["finished", DIED, DIED]
@@ -84,11 +96,31 @@ def test_no_more_runs_at_once_than_asked_for(tmp_path):
     assert [end.message for end in ended.values()] == ["1", "1"]
 
 
+@fault(
+    "process",
+    "wrong input that only a worker of `compare` finds",
+    "exit 2 with its message; the other workers are ended",
+    broken=(
+        "orchestrator/comparison/processes.py",
+        "if isinstance(message, OrchestratorError):",
+        "if False:",
+    ),
+)
 def test_wrong_input_found_by_a_run_is_an_error(tmp_path):
     with pytest.raises(OrchestratorError, match="no such bearing"):
         run_all(tasks(tmp_path, "v1", "v2"), 2, lambda *_: None, work=refuses)
 
 
+@fault(
+    "process",
+    "Ctrl-C in `compare`",
+    "the runs under way end between two steps, no other starts; exit 130",
+    broken=(
+        "orchestrator/comparison/processes.py",
+        "        stop.set()\n\n    with",
+        "        pass\n\n    with",
+    ),
+)
 def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):
     def interrupt(_name, message):
         if isinstance(message, Progressed):
@@ -99,6 +131,22 @@ def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):
     assert [end.outcome for end in ended.values()] == ["interrupted", "interrupted"]
     assert ended["v2"].message == "not started"
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@fault(
+    "process",
+    "SIGTERM in `compare`",
+    "as Ctrl-C, but `terminated`, exit 143",
+    broken=("orchestrator/comparison/processes.py", "if asked[:1] == [signal.SIGTERM]", "if False"),
+)
+def test_a_request_to_terminate_ends_the_runs_by_that_name(tmp_path):
+    def terminate(_name, message):
+        if isinstance(message, Progressed):
+            signal.raise_signal(signal.SIGTERM)
+
+    ended = run_all(tasks(tmp_path, "v1", "v2"), 1, terminate, work=waits_for_the_end)
+    assert [end.outcome for end in ended.values()] == ["terminated", "terminated"]
+    assert status_of(ended["v1"]) == 143 and "SIGTERM" in ended["v1"].advice
 
 
 def test_processes_share_the_cores(tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.simulate import Execution, default_threads, simulate
 from orchestrator.unit import Status, UnitError
 from rotor_fmu.train_file import load_train
+from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -34,6 +35,12 @@ def test_every_unit_steps_once(threads):
     assert [unit.steps for unit in units] == [[(0.5, 1e-3)]] * 7
 
 
+@fault(
+    "unit",
+    "units that fail at the same time on several threads",
+    "the error of the first in their order, as on one thread",
+    broken=("orchestrator/crew.py", "raise errors[min(errors)]", "raise errors[max(errors)]"),
+)
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_the_first_error_in_the_order_of_units_counts_and_all_step(threads):
     units = [Counter(str(k), fails=k in (2, 3, 5)) for k in range(7)]

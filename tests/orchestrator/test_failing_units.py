@@ -50,20 +50,6 @@ def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
 
 @fault(
     "unit",
-    "an FMU that breaks inside a step: error or fatal",
-    "exit 5, `unit-failed`; unit, time, what it logged; the record up to there",
-    broken=("orchestrator/unit_error.py", "if status is not Status.DISCARD:", "if False:"),
-)
-def test_a_unit_that_breaks(faulty, run, tmp_path):
-    result = run(faulty, "raise")
-    assert result.exit_code == exit_status.STATUS[Outcome.UNIT_FAILED], result.output
-    assert "unit-failed" in result.stderr and "rear: fmi2DoStep returned fatal" in result.stderr
-    assert "at t = 0.0015 s" in result.stderr
-    assert read_record(tmp_path / "out-partial").sizes["time"] == 16
-
-
-@fault(
-    "unit",
     "an FMU that returns a status that FMI does not know",
     "it counts as fatal: UnitError with outcome unit-failed",
     broken=(UNIT, " if status in _STATUSES else Status.FATAL", ""),

@@ -6,8 +6,15 @@ import pytest
 
 from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.simulate import Stage
+from tests.faults import fault
 
 
+@fault(
+    "process",
+    "Ctrl-C while a unit is in a call",
+    "it waits for the end of the step: a unit that is interrupted is lost",
+    broken=("orchestrator/interrupt.py", "        due.append(number)", "        raise SIGNALS[number]"),
+)
 def test_the_next_report_raises_and_the_handler_is_restored():
     before, seen = signal.getsignal(signal.SIGINT), []
     with interrupt_between_steps(lambda stage, time: seen.append(time)) as report:
@@ -20,6 +27,16 @@ def test_the_next_report_raises_and_the_handler_is_restored():
     assert signal.getsignal(signal.SIGINT) is before
 
 
+@fault(
+    "process",
+    "Ctrl-C twice",
+    "the second is not held back",
+    broken=(
+        "orchestrator/interrupt.py",
+        "        if due:\n            raise SIGNALS[number]",
+        "        if False:\n            raise SIGNALS[number]",
+    ),
+)
 def test_a_second_interrupt_is_not_held_back():
     with interrupt_between_steps(lambda stage, time: None), pytest.raises(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)

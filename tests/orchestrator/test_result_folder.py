@@ -9,6 +9,7 @@ from orchestrator.result_folder import (
     partial_folder,
     result_folder,
 )
+from tests.faults import fault
 
 
 def write(folder, text):
@@ -27,6 +28,16 @@ def test_a_new_folder_appears_with_its_parents(tmp_path):
     assert target.stat().st_mode & 0o700 == 0o700
 
 
+@fault(
+    "machine",
+    "an error while results are written",
+    "no folder, and no parent that was made for it",
+    broken=(
+        "orchestrator/result_folder.py",
+        "        shutil.rmtree(temporary, ignore_errors=True)",
+        "        pass",
+    ),
+)
 def test_nothing_is_left_when_writing_fails(tmp_path):
     target = tmp_path / "results" / "run"
     with pytest.raises(RuntimeError), result_folder(target) as fresh:
@@ -57,6 +68,16 @@ def test_an_earlier_result_survives_a_failure(tmp_path):
     assert (target / "scenario.toml").read_text() == "one"
 
 
+@fault(
+    "machine",
+    "`--out` names a folder with other files",
+    "exit 2; `no earlier result`; nothing is overwritten",
+    broken=(
+        "orchestrator/result_folder.py",
+        "if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():",
+        "if False:",
+    ),
+)
 def test_a_folder_with_alien_files_is_refused(tmp_path):
     (tmp_path / "thesis.tex").write_text("")
     with pytest.raises(ResultFolderError, match="no earlier result"):

@@ -13,6 +13,7 @@ from orchestrator.simulate import simulate
 from orchestrator.stepping import DEEPEST, StepFailure, Stepper, ToleranceMissed
 from orchestrator.summary import summarise
 from orchestrator.summary_table import to_text
+from tests.faults import fault
 from tests.orchestrator.oscillator import DISPLACEMENT, begin, exact_motion, make_system, released
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -94,6 +95,16 @@ def test_newton_iterates_instead_of_halving(store, toy_fmus):
     assert stepper.counts.rejected == 0
 
 
+@fault(
+    "coupling",
+    "an iteration that does not converge",
+    "the step is taken back and halved",
+    broken=(
+        "orchestrator/stepping.py",
+        "except NotConverged as error:",
+        "except ZeroDivisionError as error:",
+    ),
+)
 def test_newton_that_does_not_converge_halves(store, toy_fmus):
     system = released(store, toy_fmus, **CUBIC)
     _, stepper = carry(system, Newton(1e-6, limit=2), 1e-6, end=5e-3)
@@ -122,6 +133,16 @@ def test_a_refused_step_is_halved_there_and_steps_grow_again(store, toy_fmus):
     np.testing.assert_allclose(x, exact_motion(times), atol=0.01 * DISPLACEMENT)
 
 
+@fault(
+    "film",
+    "a film that fails for good",
+    "the step is halved to a thousandth, then the run ends at the last accepted step, with the unit's reason",
+    broken=(
+        "orchestrator/stepping.py",
+        "            if self.level == DEEPEST:\n                raise\n",
+        "            if self.level == 0:\n                raise\n",
+    ),
+)
 def test_what_is_always_refused_ends_at_the_last_accepted_step(store, toy_fmus):
     system = refusing(store, toy_fmus, refuse_after=7e-3)
     system.set_scale(LOAD, [1.0, 1.0])
@@ -179,6 +200,16 @@ def test_a_macro_step_is_parted_at_an_event_inside():
     assert list(Course(2.5e-3, 1e-3).parts(3)) == [(2e-3, 2.5e-3, pytest.approx(5e-4))]
 
 
+@fault(
+    "unit",
+    "an FMU without states in a coupling that takes steps back",
+    "FmuError; unit, `canGetAndSetFMUstate`, couplings that do without",
+    broken=(
+        "orchestrator/rollback.py",
+        "        if self._fixed:\n            names",
+        "        if False:\n            names",
+    ),
+)
 def test_units_that_cannot_be_taken_back_are_named(store, toy_fmus):
     system = released(store, toy_fmus)
     system.rotor.file.description.coSimulation.canGetAndSetFMUstate = False

@@ -6,6 +6,7 @@ import pytest
 from fmus import port
 from orchestrator.errors import FmuError, PortError
 from orchestrator.unit import Block, Status, Unit, UnitError
+from tests.faults import fault
 
 
 @pytest.fixture
@@ -16,9 +17,7 @@ def spring(store, toy_fmus):
 
 
 def started(unit, **parameters):
-    unit.set_parameters(
-        {"spring.stiffness": 2e6, "spring.damping": 1e3, "clearance": 1e3, **parameters}
-    )
+    unit.set_parameters({"spring.stiffness": 2e6, "spring.damping": 1e3, "clearance": 1e3, **parameters})
     unit.enter_initialization()
     unit.exit_initialization()
     return unit
@@ -116,6 +115,12 @@ def test_the_store_leaves_nothing_behind(store, toy_fmus):
     assert not folder.exists()
 
 
+@fault(
+    "unit",
+    "libraries of pythonfmu that write to freed memory when the process ends",
+    "they are ended before",
+    broken=("orchestrator/fmu_file.py", "            file.end_library()", "            pass"),
+)
 def test_the_store_ends_the_libraries_that_were_used(store, toy_fmus):
     """A library of pythonfmu that ends at the exit of the process only writes to freed memory."""
     file = store.open(toy_fmus / "spring_damper.fmu")
@@ -129,6 +134,16 @@ def test_the_store_ends_the_libraries_that_were_used(store, toy_fmus):
     assert "library" not in unused.__dict__
 
 
+@fault(
+    "unit",
+    "an FMU that is not there",
+    "FmuError; file, how to build it",
+    broken=(
+        "orchestrator/fmu_file.py",
+        "except FileNotFoundError as error:",
+        "except ZeroDivisionError as error:",
+    ),
+)
 def test_a_missing_file_is_named(store, toy_fmus):
     with pytest.raises(FmuError, match=r"bearing_v9\.fmu: no such file"):
         store.open(toy_fmus / "bearing_v9.fmu")
@@ -140,6 +155,16 @@ def test_a_file_that_is_no_fmu_is_named(store, tmp_path):
         store.open(tmp_path / "text.fmu")
 
 
+@fault(
+    "unit",
+    "a parameter that an FMU does not have",
+    "PortError; file, unit, variable",
+    broken=(
+        "orchestrator/unit.py",
+        'raise PortError(f"{self.file.path}: {self.name} has no variable {name!r}") from None',
+        "raise",
+    ),
+)
 def test_an_unknown_variable_is_named(spring):
     with pytest.raises(PortError, match="no variable 'stiffnes'"):
         spring.set_parameters({"stiffnes": 1.0})

@@ -30,8 +30,6 @@ class FaultyBearing(SpringBearing):
                 pass
         elif fault == "lock":  # keeps Python's lock, as a native library does that is called with it
             ctypes.PyDLL(None).usleep(int(LONG * 1e6))
-        elif fault == "raise":
-            raise RuntimeError("the spring is broken")
         done = super().do_step(current_time, step_size)
         if fault == "nan":
             self.values.update(dict.fromkeys(OUTPUTS, math.nan))
