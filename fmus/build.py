@@ -83,6 +83,7 @@ def bearing_recipe(depth: str, starts: Mapping[str, port.Value] | None = None) -
         variables=lambda: port.BEARING,
         arguments={"depth": depth, "starts": dict(sorted((starts or {}).items()))},
         starts=starts or {},
+        memoryless=True,
     )
 
 

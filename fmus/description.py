@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from pythonfmu import Fmi2Slave
 
+from fmus.memoryless import annotate
 from fmus.variable import UNITS, Value, Variable
 
 STEP_SIZE = 1e-4
@@ -40,7 +41,9 @@ class Identity:
     date: str | None = None
 
 
-def model_description(identity: Identity, variables: Sequence[Variable]) -> bytes:
+def model_description(
+    identity: Identity, variables: Sequence[Variable], *, memoryless: bool = False
+) -> bytes:
     """Return the modelDescription.xml of a unit.
 
     Parameters
@@ -49,6 +52,8 @@ def model_description(identity: Identity, variables: Sequence[Variable]) -> byte
         Name, GUID, version.
     variables : sequence of Variable
         The port, in the order of the value references.
+    memoryless : bool
+        Say so, see `fmus.memoryless`.
 
     Returns
     -------
@@ -85,6 +90,8 @@ def model_description(identity: Identity, variables: Sequence[Variable]) -> byte
     for name, text in Fmi2Slave.log_categories.items():
         SubElement(categories, "Category", name=name, description=text)
     SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=repr(STOP_TIME), stepSize=repr(STEP_SIZE))
+    if memoryless:
+        annotate(root)
     listed = SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
         listed.append(_scalar_variable(variable, reference))

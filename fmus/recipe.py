@@ -21,7 +21,7 @@ from fmus.sources import package_folder, source_files
 from fmus.variable import Value, Variable
 
 _NAMESPACE = uuid.UUID("6f0d3f5e-6a5b-5d0c-9d3f-2f6a1c0b7e11")
-_BUILDERS = ("description.py", "describe.py", "recipe.py", "sources.py", "loader.py")
+_BUILDERS = ("description.py", "memoryless.py", "describe.py", "recipe.py", "sources.py", "loader.py")
 
 _ENTRY = '''"""Entry of the FMU {name}; pythonfmu runs it for each instance."""
 
@@ -64,6 +64,8 @@ class Recipe:
         Modules that `variables` draws on; they stay outside, but count in the digest.
     starts : mapping
         Start values in place of those of the port, by variable name.
+    memoryless : bool
+        See `fmus.memoryless`.
     """
 
     file_name: str
@@ -78,6 +80,7 @@ class Recipe:
     keeps_starts: bool = False
     builder_modules: tuple[str, ...] = ()
     starts: Mapping[str, Value] = field(default_factory=dict)
+    memoryless: bool = False
 
     @cached_property
     def sources(self) -> dict[str, dict[str, bytes]]:
@@ -95,7 +98,7 @@ class Recipe:
         files |= {f"resources/{name}": content for name, content in self.resources.items()}
         said = (self.file_name, self.name, self.description, self.facade, self.facade_class)
         made_with = (metadata.version("pythonfmu"), version(), dict(self.arguments), dict(self.starts))
-        files["recipe"] = json.dumps([said, made_with], sort_keys=True).encode()
+        files["recipe"] = json.dumps([said, made_with, self.memoryless], sort_keys=True).encode()
         return loader.digest_of(files.items())
 
     @property
@@ -120,7 +123,7 @@ class Recipe:
             arguments=dict(self.arguments),
         )
         files = {
-            "modelDescription.xml": model_description(identity, variables),
+            "modelDescription.xml": model_description(identity, variables, memoryless=self.memoryless),
             "documentation/index.html": page(identity, variables),
             "resources/slavemodule.txt": entry.encode(),
             f"resources/{entry}.py": script.encode(),

@@ -14,13 +14,15 @@ from typing import Any
 
 import fmpy
 
+from fmus.memoryless import is_memoryless
 from orchestrator.errors import FmuError
 from orchestrator.safe_archive import LIMITS, ArchiveError, Limits, extract
 from orchestrator.safe_xml import XmlError, read_xml
 
 _SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+")
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_READ = ("modelDescription.xml", "sources/buildDescription.xml")  # by fmpy, which takes what XML can do
+# Both are read by fmpy, which takes what XML can do.
+_DESCRIPTION, _SOURCES = "modelDescription.xml", "sources/buildDescription.xml"
 _FALLBACK = "/tmp"  # where TMPDIR has characters that hosts of Python FMUs trip over
 
 
@@ -39,6 +41,8 @@ class FmuFile:
         The description's scalar variables by name.
     size : int
         Bytes that it holds extracted.
+    memoryless : bool
+        Whether it says that its outputs follow from its inputs alone, see `fmus.memoryless`.
 
     Raises
     ------
@@ -51,9 +55,9 @@ class FmuFile:
         self.folder = folder
         try:
             self.size = extract(path, folder, "FMU", limits)
-            for name in _READ:
-                if name == _READ[0] or (folder / name).exists():
-                    read_xml(folder / name)
+            self.memoryless = is_memoryless(read_xml(folder / _DESCRIPTION))
+            if (folder / _SOURCES).exists():
+                read_xml(folder / _SOURCES)
             self.description: Any = fmpy.read_model_description(folder)
         except FileNotFoundError as error:
             if path.exists():

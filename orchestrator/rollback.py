@@ -14,8 +14,9 @@ from orchestrator.unit import Unit, UnitError
 class Rollback:
     """The last mark of a system and the way back to it.
 
-    Calls are prepared once; a mark costs two foreign calls a unit.  Units that cannot keep
-    their state are left out of the marks, and `take_back` refuses then.
+    Calls are prepared once; a mark costs two foreign calls a unit.  Units without memory need no
+    mark, since a step is always preceded by a feed.  Where others cannot keep their state, `take_back`
+    refuses.
 
     Parameters
     ----------
@@ -28,8 +29,8 @@ class Rollback:
     def __init__(self, units: Sequence[Unit], graph: Graph) -> None:
         self._graph = graph
         self._inputs, self._outputs = graph.inputs.copy(), graph.outputs.copy()
-        self._fixed = [unit for unit in units if not unit.file.can_keep_state]
-        kept = [] if self._fixed else [_KeptState(unit) for unit in units]
+        self._fixed = [u for u in units if not (u.file.memoryless or u.file.can_keep_state)]
+        kept = [] if self._fixed else [_KeptState(unit) for unit in units if not unit.file.memoryless]
         self._kept = tuple(kept)
         self._marked = False
 

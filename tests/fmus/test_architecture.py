@@ -27,6 +27,7 @@ OF_FMUS_FOR_THE_MASTER = {
     "fmus.build",
     "fmus.archive",
     "fmus.failure",
+    "fmus.memoryless",
     "fmus.own",
 }
 

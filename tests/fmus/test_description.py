@@ -1,9 +1,13 @@
 """The modelDescription says what the port says."""
 
+from xml.etree import ElementTree
+from zipfile import ZipFile
+
 import pytest
 
 from fmus import port
 from fmus.description import STEP_SIZE
+from fmus.memoryless import is_memoryless
 
 
 def variables_of(host):
@@ -29,6 +33,13 @@ def test_capabilities_and_default_experiment(hosts):
         assert unit.canHandleVariableCommunicationStepSize and unit.needsExecutionTool
         assert not unit.canBeInstantiatedOnlyOncePerProcess
         assert float(host.description.defaultExperiment.stepSize) == STEP_SIZE
+
+
+def test_films_say_that_they_have_no_memory_and_rotors_do_not(built):
+    for name, path in built.items():
+        with ZipFile(path) as archive:
+            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        assert is_memoryless(root) == name.startswith("bearing")
 
 
 def test_units_have_the_dimensions_of_the_law(hosts):

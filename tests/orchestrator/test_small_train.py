@@ -160,3 +160,21 @@ def test_a_run_repeats_bit_by_bit(fmus):
     scenario = small(end=8e-3, event={"time": 4e-3})
     first, second = (simulate(scenario, fmus).record for _ in range(2))
     assert first.identical(second)
+
+
+@pytest.mark.parametrize(
+    ("coupling", "step", "end"),
+    [("linear-implicit", 1e-3, 0.04), ("newton", 1e-3, 0.04), ("iqn-ils", 1e-4, 0.021)],
+)
+def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
+    coupling, step, end, fmus, monkeypatch
+):
+    """Films say that they have no memory; a mark of theirs must then change nothing, to the bit."""
+    changes = {"coupling": coupling, "tolerance": 1e-3, "step": step, "end": end, "event": {"time": 0.0203}}
+    without = simulate(small(**changes), fmus)
+    assert without.outcome is Outcome.FINISHED
+    assert without.counts.rejected > 0 or without.counts.iterations > without.counts.accepted
+    monkeypatch.setattr("orchestrator.fmu_file.is_memoryless", lambda _root: False)
+    marked = simulate(small(**changes), fmus)
+    assert marked.counts == without.counts
+    assert marked.record.identical(without.record)
