@@ -1,6 +1,7 @@
 """The table of faults in ``README.md``, written from the marks of the tests: ``python -m tests.fault_table``.
 
-With ``--check`` nothing is written, and the exit status is 1 where the page does not say what the marks say.
+With ``--check`` nothing is written, and the exit status is 1 where the page does not say what the marks say,
+or where a guard is not found that a mark would have taken away (see `tests.mutation`).
 """
 
 from __future__ import annotations
@@ -30,6 +31,10 @@ _TITLES = {
 }
 
 
+class NotOnce(ValueError):
+    """The text that a mutant replaces is not there exactly once."""
+
+
 @dataclass(frozen=True)
 class Fault:
     """A fault and the tests that prove what happens in it.
@@ -49,6 +54,21 @@ class Fault:
     outcome: str
     broken: tuple[str, str, str]
     tests: tuple[str, ...]
+
+    def mutant(self, root: Path) -> str:
+        """Return the text of the file without the guard.
+
+        Raises
+        ------
+        NotOnce
+            If the text of the guard is not there exactly once.
+        """
+        name, old, new = self.broken
+        path = root / name
+        text = path.read_text(encoding="utf-8") if path.is_file() else ""
+        if text.count(old) != 1:
+            raise NotOnce(f"{name}: {old!r} occurs {text.count(old)} times, must be once")
+        return text.replace(old, new)
 
     @property
     def test(self) -> str:
@@ -130,16 +150,21 @@ def page(faults: Sequence[Fault], old: str) -> str:
 
 def main(arguments: Sequence[str]) -> int:
     """Write or check the page; return the exit status."""
-    old = PAGE.read_text(encoding="utf-8")
-    new = page(collect(), old)
+    old, faults = PAGE.read_text(encoding="utf-8"), collect()
+    new = page(faults, old)
     if "--check" not in arguments:
         PAGE.write_text(new, encoding="utf-8")
-    elif new != old:
-        print(
-            f"{PAGE.name} does not say what the marks say: run python -m tests.fault_table", file=sys.stderr
-        )
-        return 1
-    return 0
+        return 0
+    problems = []
+    for fault in faults:
+        try:
+            fault.mutant(ROOT)
+        except NotOnce as error:
+            problems.append(f"{fault.test}: {error}")
+    if new != old:
+        problems.append(f"{PAGE.name} does not say what the marks say: run python -m tests.fault_table")
+    print("\n".join(problems), file=sys.stderr)
+    return 1 if problems else 0
 
 
 if __name__ == "__main__":

@@ -24,8 +24,8 @@ from tests.fault_table import ROOT, Fault, collect
 _COPIED = ("bearing_fmu", "rotor_fmu", "fmus", "orchestrator", "tests", "pyproject.toml", "README.md")
 
 
-class NotOnce(ValueError):
-    """The text that a mutant replaces is not there exactly once."""
+class Died(RuntimeError):
+    """The process of the tests ended before they did."""
 
 
 class Outcomes:
@@ -97,15 +97,14 @@ class Tree:
             If the text to replace is not there exactly once.
         TimeoutError
             If the tests do not end within the limit.
+        Died
+            If they take their process with them.
         """
-        name, old, new = fault.broken
+        name, mutant = fault.broken[0], fault.mutant(self.root)
         path = self.root / name
-        text = path.read_text(encoding="utf-8") if path.is_file() else ""
-        if text.count(old) != 1:
-            raise NotOnce(f"{name}: {old!r} occurs {text.count(old)} times, must be once")
         path.rename(path.with_suffix(".whole"))  # keeps its time, which tells Python that its bytecode holds
         try:
-            path.write_text(text.replace(old, new), encoding="utf-8")
+            path.write_text(mutant, encoding="utf-8")
             stamp = "" if name in kernel_modules(self.root) else self._stamp
             outcomes = Outcomes(*self._in_child(_run_tests, fault.tests, stamp, True))
         finally:
@@ -129,7 +128,7 @@ class Tree:
             return here.recv()
         except EOFError:
             log = self._log.read_text(errors="replace")[-2000:]
-            raise RuntimeError(f"the process of the tests died\n{log}") from None
+            raise Died(f"the process of the tests died\n{log}") from None
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(process.pid or 0, signal.SIGKILL)

@@ -4,7 +4,8 @@ For every mark of `tests.faults` the text it names is replaced in a copy of the 
 that carry the mark run there.  A line says what came of it:
 
 killed
-    The test failed, in its own body: it proves the guard.  Its last words are shown, for a reader to judge.
+    The test failed, in its own body, or its process died: it proves the guard.  Its last words are shown,
+    for a reader to judge.
 hangs
     It did not end within the time limit (``--limit``, seconds); without the guard, that is a failure.
 survived
@@ -30,8 +31,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.fault_table import Fault
-from tests.mutant_tree import NotOnce, Outcomes, Tree
+from tests.fault_table import Fault, NotOnce
+from tests.mutant_tree import Died, Outcomes, Tree
 
 _LIBRARIES = (
     "numba", "scipy.sparse.linalg", "scipy.integrate", "scipy.optimize", "xarray", "h5netcdf", "pydantic",
@@ -58,6 +59,8 @@ def verdict_on(tree: Tree, whole: Outcomes, fault: Fault) -> Verdict:
         return judged(tree.without_guard(fault))
     except NotOnce as error:
         return Verdict("invalid", str(error))
+    except Died as error:
+        return Verdict("killed", " ".join(str(error).split()))
     except TimeoutError as error:
         return Verdict("hangs", str(error))
 
