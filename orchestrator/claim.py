@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 from orchestrator.result_folder import FIGURES, ResultFolderError, partial_folder, temporary_prefix
@@ -17,7 +18,7 @@ except ImportError:  # not on Windows; there two runs are told apart by nobody
 
 
 @contextmanager
-def claim(folder: Path) -> Iterator[None]:
+def claim(folder: Path) -> Iterator[Callable[[], None]]:
     """Keep other runs away from a folder, and remove what a killed run left half-written beside it.
 
     The claim is a lock on a file beside the folder.  It ends with the process, however that ends.
@@ -26,6 +27,11 @@ def claim(folder: Path) -> Iterator[None]:
     ----------
     folder : Path
         Where the results go.
+
+    Yields
+    ------
+    callable
+        Ends the claim, where the process ends inside the block.
 
     Raises
     ------
@@ -40,7 +46,7 @@ def claim(folder: Path) -> Iterator[None]:
         for place in (folder, partial_folder(folder)):
             _remove_rests(place.parent, temporary_prefix(place))
             _remove_rests(place, temporary_prefix(place / FIGURES))
-        yield
+        yield partial(path.unlink, missing_ok=True)
     finally:
         path.unlink(missing_ok=True)
         os.close(descriptor)

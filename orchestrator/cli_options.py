@@ -78,7 +78,7 @@ FigureFormats = Annotated[
 
 def guarded(work: Callable[[], int]) -> None:
     """Do the work; an error becomes its text on stderr and a status: 2 for the input, else its outcome's."""
-    from orchestrator.errors import EquilibriumError, OrchestratorError, Terminated
+    from orchestrator.errors import EquilibriumError, NotWrittenError, OrchestratorError, Terminated
     from orchestrator.exit_status import INPUT_ERROR, of_outcome
     from orchestrator.interrupt import handled, raise_at_once
     from orchestrator.outcome import Outcome
@@ -93,6 +93,8 @@ def guarded(work: Callable[[], int]) -> None:
         text, status = f"{error}. {Outcome.NO_EQUILIBRIUM.advice}", of_outcome(Outcome.NO_EQUILIBRIUM)
     except UnitError as error:
         text, status = f"{error}. {error.outcome.advice}", of_outcome(error.outcome)
+    except NotWrittenError as error:
+        text, status = f"{error} {Outcome.NOT_WRITTEN.advice}", of_outcome(Outcome.NOT_WRITTEN)
     except (OrchestratorError, TrainFileError) as error:
         text, status = str(error), INPUT_ERROR
     except OSError as error:

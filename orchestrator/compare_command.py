@@ -19,10 +19,11 @@ from orchestrator.comparison.report import Comparison, Settings, compare, to_csv
 from orchestrator.comparison.runs import gather
 from orchestrator.comparison.table import ComparisonTable, to_text
 from orchestrator.comparison.worker import Ended, Task, Work, simulate_task
+from orchestrator.errors import NotWrittenError
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.outcome import Outcome
 from orchestrator.record_files import RECORD_FILE, read_record
-from orchestrator.result_files import NO_FIGURES, NotWrittenError, add_figures, room_for
+from orchestrator.result_files import NO_FIGURES, add_figures, room_for
 from orchestrator.result_folder import (
     FIGURES,
     PARTIAL,

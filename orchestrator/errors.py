@@ -32,6 +32,10 @@ class PortError(OrchestratorError):
     """A unit that lacks variables of the port, or declares them differently."""
 
 
+class NotWrittenError(OrchestratorError):
+    """Results that could not be written; the text names folder, reason, needed and free room."""
+
+
 class Terminated(KeyboardInterrupt):
     """The process was told to end by SIGTERM; it ends as after Ctrl-C, with a status of its own."""
 

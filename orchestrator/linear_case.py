@@ -17,6 +17,7 @@ from rich.table import Table
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.operating_point import OperatingPoint, operating_point
 from orchestrator.record_files import netcdf
+from orchestrator.result_files import room_for
 from orchestrator.result_folder import check_folder, result_folder
 from orchestrator.scenario import Scenario
 from orchestrator.scenario_file import bundled_scenarios, load_scenario, scenario_toml, train_of
@@ -199,7 +200,7 @@ def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, fi
     request = case.request
     case.console.print(table)
     written: list[str] = []
-    with result_folder(request.folder) as fresh:
+    with room_for(data, request.folder), result_folder(request.folder) as fresh:
         for index, dataset in enumerate(data):
             name = request.command if index == 0 else str(dataset.attrs["name"])
             described = dataset.assign_attrs(

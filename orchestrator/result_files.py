@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestrator.errors import OrchestratorError
+from orchestrator.errors import NotWrittenError
 from orchestrator.figures.write import write_figures
 from orchestrator.record_files import write_record
 from orchestrator.result_folder import FIGURES, PARTIAL, result_folder
@@ -24,10 +24,6 @@ if TYPE_CHECKING:
     from rotor_fmu.train import Train
 
 NO_FIGURES = "The figures are not written; record and summary are complete.\n"
-
-
-class NotWrittenError(OrchestratorError):
-    """Results that could not be written; the text names folder, reason, needed and free room."""
 
 
 def write_data(result: Result, summary: RunSummary, scenario: Scenario, folder: Path) -> None:

@@ -14,12 +14,12 @@ from orchestrator import exit_status
 from orchestrator.certify import at_half_step, certify
 from orchestrator.checkpoint_folder import checkpoint_folder, checkpoints, discard
 from orchestrator.claim import claim
-from orchestrator.errors import OrchestratorError
+from orchestrator.errors import NotWrittenError, OrchestratorError
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.outcome import Outcome
 from orchestrator.progress import show_progress
-from orchestrator.result_files import NotWrittenError, write_all
+from orchestrator.result_files import write_all
 from orchestrator.result_folder import FIGURES, check_folder, check_writable, partial_folder
 from orchestrator.scenario_file import load_scenario, train_of, with_overrides
 from orchestrator.simulate import Execution, Result, default_threads, simulate
@@ -144,10 +144,14 @@ def carry_out_request(
     def warn(text: str) -> None:
         errors.print(f"[yellow]warning:[/yellow] {text}", highlight=False, soft_wrap=True)
 
-    with claim(folder):
+    with claim(folder) as release:
+
+        def give_up(hung: Result) -> None:
+            leave(lambda: finish(hung), release, console.show_cursor)
+
         saving = checkpoints(scenario, request, folder, trusted, warn)
         with (
-            Watchdog(request.budget, lambda hung: leave(lambda: finish(hung))) as watchdog,
+            Watchdog(request.budget, give_up) as watchdog,
             show_progress(scenario.end, console) as show,
             interrupt_between_steps(show) as progress,
         ):

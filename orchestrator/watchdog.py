@@ -125,14 +125,17 @@ def _arm_last_resort(limit: float) -> None:
             faulthandler.dump_traceback_later(limit, exit=True, file=sys.__stderr__)
 
 
-def leave(conclude: Callable[[], int]) -> NoReturn:
-    """Conclude a run and end the process with its exit status, whatever other threads are in."""
+def leave(conclude: Callable[[], int], *after: Callable[[], object]) -> NoReturn:
+    """Conclude a run, do what is left, and end the process with its status, whatever other threads are in."""
     status = 1
     try:
         status = conclude()
     except BaseException:  # nobody is left to see it
         traceback.print_exc()
     finally:
+        for act in after:
+            with suppress(Exception):
+                act()
         with suppress(Exception):
             sys.stdout.flush()
             sys.stderr.flush()

@@ -10,10 +10,10 @@ from multiprocessing.connection import Connection
 from multiprocessing.synchronize import Event
 from pathlib import Path
 
-from orchestrator.errors import OrchestratorError
+from orchestrator.errors import NotWrittenError, OrchestratorError
 from orchestrator.interrupt import SIGNALS
 from orchestrator.outcome import Outcome
-from orchestrator.result_files import NotWrittenError, room_for, write_data
+from orchestrator.result_files import room_for, write_data
 from orchestrator.result_folder import result_folder
 from orchestrator.scenario import Scenario
 from orchestrator.simulate import Execution, Result, Stage, simulate

@@ -54,15 +54,18 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     path = Path(request.source)
     folder = request.out or Path("results") / path.stem
     check_folder(folder)
-    with claim(folder), SspRun(path, request.overrides) as prepared:
+    with claim(folder) as release, SspRun(path, request.overrides) as prepared:
         check_bearing(request, prepared.train)
         require_trust(prepared.fmus, request.fmus, trust=request.trust)
 
         def finish(result: Result) -> int:
             return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors)
 
+        def give_up(hung: Result) -> None:
+            leave(lambda: finish(hung), release, console.show_cursor)
+
         with (
-            Watchdog(request.budget, lambda hung: leave(lambda: finish(hung))) as watchdog,
+            Watchdog(request.budget, give_up) as watchdog,
             show_progress(prepared.scenario.end, console) as show,
             interrupt_between_steps(show) as progress,
         ):

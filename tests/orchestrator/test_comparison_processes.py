@@ -117,8 +117,8 @@ def test_wrong_input_found_by_a_run_is_an_error(tmp_path):
     "the runs under way end between two steps, no other starts; exit 130",
     broken=(
         "orchestrator/comparison/processes.py",
-        "        stop.set()\n\n    with",
-        "        pass\n\n    with",
+        "end(task, _not_started())",
+        "pass",
     ),
 )
 def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):

@@ -77,7 +77,8 @@ def test_a_unit_that_hangs_in_a_step(how, options, run, tmp_path):
     record = read_record(partial)
     assert record.attrs["status"] == "unit-hung" and record["time"].values[-1] == pytest.approx(0.0015)
     assert json.loads((partial / "summary.json").read_text())["finished"] is False
-    assert not list((tmp_path / "room").glob("bladeloss_*")) and not (tmp_path / "out").exists()
+    assert not list((tmp_path / "room").glob("bladeloss_*"))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out-partial", "room", "short.toml"]
 
 
 @fault(

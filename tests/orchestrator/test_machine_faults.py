@@ -2,7 +2,7 @@
 
 import pytest
 
-from orchestrator import checkpoint, exit_status, result_files, run_command
+from orchestrator import campbell_command, checkpoint, exit_status, result_files, run_command
 from orchestrator.checkpoint_folder import checkpoint_folder
 from orchestrator.comparison import worker
 from orchestrator.comparison.worker import Task
@@ -185,4 +185,18 @@ def test_a_run_of_compare_that_cannot_write(small_fmus, tmp_path, monkeypatch):
     monkeypatch.setattr(worker, "write_data", under_limit(10_000, worker.write_data))
     worker._conclude(Task("v3", scenario, small_fmus, tmp_path / "v3"), result, pipe)
     assert pipe.message.outcome == "not-written" and "File too large" in pipe.message.message
+    assert list(tmp_path.iterdir()) == []
+
+
+@fault(
+    "machine",
+    "a full disk when an investigation of the linearised train is written",
+    "exit 13; folder, needed and free room; no folder",
+    broken=("orchestrator/linear_case.py", "room_for(data, request.folder), ", ""),
+)
+def test_a_full_disk_at_the_end_of_a_linear_command(tmp_path, monkeypatch):
+    monkeypatch.setattr(campbell_command, "write_results", under_limit(100, campbell_command.write_results))
+    result = call("campbell", "small", "--count", 2, "--out", tmp_path / "out")
+    assert result.exit_code == NOT_WRITTEN, result.output
+    assert f"{tmp_path / 'out'}: results not written: File too large" in result.stderr
     assert list(tmp_path.iterdir()) == []

@@ -58,12 +58,6 @@ def test_it_travels_in_the_ssp(own, fmus, tmp_path):
 
 @fault(
     "unit",
-    "an FMU whose description lies: variables missing, or of another causality, type or unit",
-    "PortError; all of them, each with what is allowed",
-    broken=("orchestrator/system.py", '        raise PortError("\\n".join(problems))', "        pass"),
-)
-@fault(
-    "unit",
     "a bearing of one's own without the port's variables, or with others",
     "exit 2; every variable that is missing or differs, the likely spelling",
     broken=("orchestrator/system.py", "        check_port(rotor, bearings)", "        pass"),

@@ -98,7 +98,7 @@ main()
 """
     status, _, errors = done("run", "small", "--out", tmp_path / "out", code=code)
     assert status == 143, errors
-    assert errors.strip() == "terminated; nothing was written" and not list(tmp_path.iterdir())
+    assert errors.strip() == "error: terminated; nothing was written" and not list(tmp_path.iterdir())
 
 
 @fault(
