@@ -131,8 +131,9 @@ def _checked(toml: TomlSource, overrides: Mapping[str, Any], folder: Path, sourc
         problems += time_problems(scenario, train)
         problems += unbalance_problems(scenario, train)
     if scenario is None or problems:
-        lines = [text if _holds(overrides, at) else toml.located((at, text)) for at, text in problems]
-        raise ScenarioError(source, lines)
+        # An override stands on no line.
+        places = (((), text) if _holds(overrides, at) else (at, text) for at, text in problems)
+        raise ScenarioError(source, list(toml.located(places)))
     return scenario
 
 

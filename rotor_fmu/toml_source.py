@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,11 @@ Location = tuple[str | int, ...]
 Problem = tuple[Location, str]
 """What is wrong and where; the location may end in a key that is missing."""
 
-LARGEST = 10_000_000
+LARGEST = 1_000_000
 """Bytes of a file that is still read; ours have some thousands."""
+
+LOCATED = 100
+"""Problems of a file whose lines are looked for, which takes some ten parses each."""
 
 
 class TomlError(ValueError):
@@ -71,11 +74,11 @@ class TomlSource:
                 low = probe
         return high
 
-    def located(self, problem: Problem) -> str:
-        """Return the text of a problem with the number of its line in front."""
-        location, text = problem
-        line = self.line(location)
-        return text if line is None else f"line {line}: {text}"
+    def located(self, problems: Iterable[Problem]) -> Iterator[str]:
+        """Yield the texts of problems, the first `LOCATED` of them with the number of their line in front."""
+        for count, (location, text) in enumerate(problems):
+            line = self.line(location) if count < LOCATED else None
+            yield text if line is None else f"line {line}: {text}"
 
     def _upto(self, line: int) -> Mapping[str, Any] | None:
         try:

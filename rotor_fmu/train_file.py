@@ -81,7 +81,7 @@ def load_train(name_or_path: str | Path) -> Train:
     rows = _read_shaft(table, in_table)
     train, found = _checked(source, rows if not in_table else []) if not problems else (None, [])
     in_table += _unknown_materials(rows, source.raw.get("materials"))
-    problems += (f"{path}: {source.located(problem)}" for problem in found)
+    problems += (f"{path}: {text}" for text in source.located(found))
     problems += (f"{table}: {text}" for text in in_table)
     if train is None or problems:
         raise TrainFileError(problems)

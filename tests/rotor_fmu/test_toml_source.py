@@ -61,7 +61,20 @@ name = "a"
 def test_the_line_of_a_value(location, line, newline):
     source = TomlSource(TEXT.replace("\n", newline))
     assert source.line(location) == line
-    assert source.located((location, "words")) == ("words" if line is None else f"line {line}: words")
+    assert list(source.located([(location, "words")])) == ["words" if line is None else f"line {line}: words"]
+
+
+@fault(
+    "input",
+    "a file with thousands of problems",
+    "exit 2 within seconds; all of them, the first hundred with their lines",
+    broken=("rotor_fmu/toml_source.py", "LOCATED = 100", "LOCATED = 10**9"),
+)
+def test_the_lines_of_many_problems_are_not_looked_for():
+    count = 107
+    source = TomlSource("\n".join(f"k{i} = {i}" for i in range(count)))
+    said = list(source.located(((f"k{i}",), "words") for i in range(count)))
+    assert said == [f"line {i + 1}: words" for i in range(100)] + 7 * ["words"]
 
 
 @fault(
