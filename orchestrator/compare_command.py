@@ -28,12 +28,14 @@ from orchestrator.result_folder import (
     FIGURES,
     PARTIAL,
     check_folder,
+    check_room,
     partial_folder,
     result_folder,
     temporary_prefix,
 )
 from orchestrator.scenario import DEPTHS
 from orchestrator.scenario_file import load_scenario, train_of, with_overrides
+from orchestrator.scenario_problems import record_size
 from orchestrator.statistics import analysed_bearing
 from orchestrator.watchdog import BUDGET
 
@@ -120,6 +122,7 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
     train = train_of(scenario)
     folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
     check_folder(folder, SIGN)
+    check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(DEPTHS))
     ensure_fmus(request.fmus, train, set(DEPTHS), console)
     prefix, place = temporary_prefix(folder), folder.parent
     with claim(folder), tempfile.TemporaryDirectory(prefix=prefix, dir=place) as temporary:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 from orchestrator.errors import NotWrittenError
 from orchestrator.figures.write import write_figures
 from orchestrator.record_files import write_record
-from orchestrator.result_folder import FIGURES, PARTIAL, result_folder
+from orchestrator.result_folder import FIGURES, PARTIAL, free_room, result_folder
 from orchestrator.scenario_file import scenario_toml
 from orchestrator.summary_table import to_text
 
@@ -79,9 +78,7 @@ def room_for(records: Sequence[xr.Dataset], folder: Path) -> Iterator[None]:
         yield
     except OSError as error:
         needed = sum(record.nbytes for record in records) / 1e6
-        existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-        free = shutil.disk_usage(existing).free / 1e6
         raise NotWrittenError(
             f"{folder}: results not written: {error.strerror or error}; about {needed:.3g} MB are needed, "
-            f"{free:.3g} MB are free."
+            f"{free_room(folder) / 1e6:.3g} MB are free."
         ) from None

@@ -58,6 +58,22 @@ def check_writable(folder: Path) -> None:
         raise ResultFolderError(f"{folder}: nothing can be written in {parent}: {error.strerror}") from None
 
 
+def check_room(folder: Path, needed: float) -> None:
+    """Raise ResultFolderError when a disk has less room than the bytes that results will need there."""
+    free = free_room(folder)
+    if free < needed:
+        raise ResultFolderError(
+            f"{folder}: the record takes {needed / 1e6:.3g} MB, and {free / 1e6:.3g} are free; allowed are a "
+            "disk with more room (--out), an earlier --end, or a longer record.interval"
+        )
+
+
+def free_room(folder: Path) -> int:
+    """Bytes that are free where a folder is, or will be."""
+    existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    return shutil.disk_usage(existing).free
+
+
 def partial_folder(folder: Path) -> Path:
     """Where an unfinished run goes, so that it never replaces a finished one."""
     return folder.with_name(folder.name + "-partial")

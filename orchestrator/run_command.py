@@ -20,8 +20,15 @@ from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.outcome import Outcome
 from orchestrator.progress import show_progress
 from orchestrator.result_files import write_all
-from orchestrator.result_folder import FIGURES, check_folder, check_writable, partial_folder
+from orchestrator.result_folder import (
+    FIGURES,
+    check_folder,
+    check_room,
+    check_writable,
+    partial_folder,
+)
 from orchestrator.scenario_file import load_scenario, train_of, with_overrides
+from orchestrator.scenario_problems import record_size
 from orchestrator.simulate import Execution, Result, default_threads, simulate
 from orchestrator.summary import summarise
 from orchestrator.summary_table import SummaryTable
@@ -130,6 +137,7 @@ def carry_out_request(
     check_bearing(request, train)
     folder = request.out or default_folder(request.source, scenario)
     check_folder(folder)
+    check_room(folder, record_size(scenario, train))
     if request.checkpoint is not None:
         check_writable(checkpoint_folder(folder))
     known = saved.about.get("trusted", ()) if saved is not None else ()

@@ -10,8 +10,9 @@ from rich.console import Console
 from orchestrator.claim import claim
 from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
-from orchestrator.result_folder import check_folder
+from orchestrator.result_folder import check_folder, check_room
 from orchestrator.run_command import check_bearing, conclude
+from orchestrator.scenario_problems import record_size
 from orchestrator.simulate import Execution, Result, default_threads
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
@@ -56,6 +57,7 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     check_folder(folder)
     with claim(folder) as release, SspRun(path, request.overrides) as prepared:
         check_bearing(request, prepared.train)
+        check_room(folder, record_size(prepared.scenario, prepared.train))
         require_trust(prepared.fmus, request.fmus, trust=request.trust)
 
         def finish(result: Result) -> int:

@@ -2,7 +2,14 @@
 
 import pytest
 
-from orchestrator import campbell_command, checkpoint, exit_status, result_files, run_command
+from orchestrator import (
+    campbell_command,
+    checkpoint,
+    exit_status,
+    result_files,
+    result_folder,
+    run_command,
+)
 from orchestrator.checkpoint_folder import checkpoint_folder
 from orchestrator.comparison import worker
 from orchestrator.comparison.worker import Task
@@ -151,6 +158,22 @@ def test_results_that_could_never_be_written(short, small_fmus):
     result = call("run", short, "--fmus", small_fmus, "--out", "/proc/out")
     assert result.exit_code == exit_status.INPUT_ERROR, result.output
     assert "/proc/out: nothing can be written in /proc: " in result.stderr and "loading" not in result.output
+
+
+@fault(
+    "machine",
+    "a disk that has less room than the record will need",
+    "exit 2 before the run; folder, needed and free room",
+    broken=(FOLDER, "if free < needed:", "if False:"),
+)
+@pytest.mark.parametrize("command", ["run", "compare"])
+def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
+    monkeypatch.setattr(result_folder, "free_room", lambda _: 1000)
+    out = short.parent / "out"
+    result = call(command, short, "--fmus", small_fmus, "--out", out)
+    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert f"{out}: the record takes 0." in result.stderr and "0.001 are free" in result.stderr
+    assert "loading" not in result.output and not out.exists()
 
 
 @fault(
