@@ -202,7 +202,8 @@ def conclude(
 ) -> int:
     """Write what a run gave, say what came out, and return the exit status.
 
-    With the result of the same run at `half` the step, a certificate goes into summary and record.
+    With the result of the same run at `half` the step, a certificate goes into summary and record; a
+    certificate that was asked for and failed is the run's exit status.
     """
     summary = summarise(result, analysed=request.bearing)
     if half is not None:
@@ -226,6 +227,8 @@ def conclude(
             console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
             if request.formats and summary.phases:
                 console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
+    if outcome.ok and half is not None and not half.outcome.ok:
+        outcome, message = half.outcome, f"the certificate's run at half the step: {half.message}"
     status = exit_status.of_outcome(outcome)
     if not outcome.ok:
         errors.print(

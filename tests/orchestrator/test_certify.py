@@ -1,15 +1,19 @@
 """The certificate: the same run at half the step, and what changes."""
 
 import json
+from dataclasses import replace
+from io import StringIO
 
 import pytest
 from rich.console import Console
 
 from orchestrator.certify import at_half_step, certify
+from orchestrator.outcome import Outcome
 from orchestrator.record_files import read_record
 from orchestrator.run_command import RunRequest, carry_out_request
 from orchestrator.simulate import simulate
 from orchestrator.summary import summarise
+from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -64,3 +68,28 @@ def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
     assert data["certificate"]["outcome"] == "finished"
     assert data["ledger"]["bearings"][0]["bearing"] == "front"
     assert read_record(out).attrs["half_step_force_max"] < 0.05
+
+
+@fault(
+    "process",
+    "the certificate's run at half the step fails",
+    "the results are written; exit status of that run, and that it was the certificate's",
+    broken=("orchestrator/run_command.py", "and not half.outcome.ok:", "and half.outcome is None:"),
+)
+def test_a_failed_certificate_is_no_success(fmus, tmp_path, monkeypatch):
+    monkeypatch.setattr("orchestrator.run_command.ensure_fmus", lambda *_: None)
+    whole = simulate
+
+    def failing_at_half(scenario, *arguments):
+        result = whole(scenario, *arguments)
+        failed = {"outcome": Outcome.TOLERANCE_MISSED, "message": "at t = 0.02 s: too far"}
+        return replace(result, **failed) if scenario.step < 1e-3 else result
+
+    monkeypatch.setattr("orchestrator.run_command.simulate", failing_at_half)
+    scenario = toy_scenario(tmp_path, event=BLADE, end=0.05)
+    said = StringIO()
+    request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)
+    status = carry_out_request(request, scenario, Console(quiet=True), Console(file=said, width=200))
+    assert status == 9
+    assert "tolerance-missed (exit status 9): the certificate's run at half the step" in said.getvalue()
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["outcome"] == "finished"
