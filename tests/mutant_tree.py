@@ -47,6 +47,10 @@ class Outcomes:
         elif report.passed and report.when == "call":
             self.passed.add(report.nodeid)
 
+    def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+        """Note an interrupt that no guard kept from the test."""
+        self.failed["interrupt"] = excinfo.typename, f"{excinfo.typename} ended the tests"
+
     def pytest_collectreport(self, report: pytest.CollectReport) -> None:
         """Note what could not be collected."""
         if report.failed:
