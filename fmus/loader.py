@@ -166,6 +166,9 @@ def _refusing(reason: str) -> type[Fmi2Slave]:
     """Return a slave that can be instantiated and asked, but never steps."""
 
     class Refusal(Fmi2Slave):
+        def enter_initialization_mode(self) -> None:
+            self._say(Fmi2Status.warning)  # the first that a host asks are the outputs of the start
+
         def exit_initialization_mode(self) -> None:
             self._say(Fmi2Status.error)
 

@@ -23,7 +23,6 @@ from orchestrator.errors import EquilibriumError
 from orchestrator.film_position import aligned_positions, carry, evaluate, tilted_positions
 from orchestrator.parameters import offset_names, start_names
 from orchestrator.system import System
-from orchestrator.unit import Unit
 from rotor_fmu.train import BearingSeat
 
 Array = NDArray[np.float64]
@@ -98,7 +97,7 @@ def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes
     system.set_speed(speed)
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
     if not np.all(np.isfinite(loads)):
-        raise EquilibriumError(f"rotor: no target loads: {_reason(system.rotor)}")
+        raise EquilibriumError(f"rotor: no target loads: {system.rotor.reason}")
     if not np.all(loads > 0.0):
         worst = int(np.argmin(loads))
         raise EquilibriumError(f"{seats[worst].name}: target load {loads[worst]:.4g} N; allowed is > 0")
@@ -172,7 +171,7 @@ def _rest_under(system: System, laws: Array) -> Array:
     system.rotor_group.fetch()
     journals = system.journals[:, :4].copy()
     if not np.all(np.isfinite(journals)):
-        raise EquilibriumError(f"rotor: no shape under the bearings' wrenches: {_reason(system.rotor)}")
+        raise EquilibriumError(f"rotor: no shape under the bearings' wrenches: {system.rotor.reason}")
     return journals
 
 
@@ -228,7 +227,7 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         if not np.all(np.isfinite(system.responses)):
             worst = int(np.argmin(np.isfinite(system.responses).all(axis=1)))
             unit = system.bearings[worst]
-            raise EquilibriumError(f"{unit.name}: no film at the trial position: {_reason(unit)}")
+            raise EquilibriumError(f"{unit.name}: no film at the trial position: {unit.reason}")
         step = _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]]) - positions
         size = np.abs(step / measure)
         if size.max() < TOLERANCE:
@@ -239,10 +238,6 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         f"{system.bearings[worst].name}: after {NEWTON_STEPS} Newton steps the journal still moves by "
         f"{size.max():.3g} of its clearance"
     )
-
-
-def _reason(unit: Unit) -> str:
-    return unit.messages[-1] if unit.messages else "no reason logged"
 
 
 def _line(system: System, nodes: int) -> Array:

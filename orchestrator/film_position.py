@@ -79,6 +79,9 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     evaluate(system, positions)
     force = system.responses[:, _FORCE].copy()
     short = ~(np.hypot(*force.T) > 0.99 * loads)
+    if not np.all(np.isfinite(force)):
+        unit = system.bearings[int(np.argmin(np.isfinite(force).all(axis=1)))]
+        raise EquilibriumError(f"{unit.name}: no film at any position: {unit.reason}")
     if short.any():
         raise EquilibriumError(
             f"{system.bearings[int(np.argmax(short))].name}: the film carries "

@@ -121,6 +121,11 @@ class Unit:
         return tuple(self._messages)
 
     @property
+    def reason(self) -> str:
+        """The last message, for what went wrong."""
+        return self._messages[-1] if self._messages else "no reason logged"
+
+    @property
     def failed(self) -> bool:
         """Whether a call ended with an error after which nothing more may be asked of the unit."""
         return self._worst >= Status.ERROR

@@ -1,8 +1,12 @@
 """The small train on its real FMUs: start, order of the coupling, what explicit coupling costs, state."""
 
+import re
+from zipfile import ZipFile
+
 import numpy as np
 import pytest
 
+from fmus.archive import write_archive
 from fmus.build import build
 from orchestrator.assembly import assemble
 from orchestrator.coupling import LinearImplicit
@@ -10,6 +14,7 @@ from orchestrator.equilibrium import apply_start, find_start
 from orchestrator.outcome import Outcome
 from orchestrator.scenario_file import load_scenario, train_of
 from orchestrator.simulate import simulate
+from tests.faults import fault
 
 DEPTHS = ("v1", "v2", "v3")
 CALM = {"event": None, "unbalance": {"grade": 0.0}, "end": 0.01}
@@ -178,3 +183,27 @@ def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
     marked = simulate(small(**changes), fmus)
     assert marked.counts == without.counts
     assert marked.record.identical(without.record)
+
+
+@fault(
+    "unit",
+    "an FMU built from other sources than those of the process",
+    "no-equilibrium, exit 3; the bearing, `FMU refused`, the package, and to rebuild",
+    broken=("fmus/loader.py", "self._say(Fmi2Status.warning)", "pass"),
+)
+def test_an_fmu_of_other_sources_is_refused_with_its_reason(fmus, tmp_path):
+    assert simulate(small(depth="v3", **CALM), fmus).outcome is Outcome.FINISHED  # its sources are loaded now
+    for path in fmus.iterdir():
+        with ZipFile(path) as archive:
+            files = {name: archive.read(name) for name in archive.namelist()}
+        if path.name == "bearing_v3.fmu":
+            script = files.pop(f"resources/{files['resources/slavemodule.txt'].decode()}.py")
+            files["resources/slavemodule.txt"] = b"bearing_of_others"  # modules go by name
+            files["resources/bearing_of_others.py"] = re.sub(
+                rb"'bearing_fmu': '\w+'", b"'bearing_fmu': 'other'", script
+            )
+        write_archive(tmp_path / path.name, files)
+    result = simulate(small(depth="v3", **CALM), tmp_path)
+    assert result.outcome is Outcome.NO_EQUILIBRIUM
+    assert "front: no film at any position: front: FMU refused: the package bearing_fmu" in result.message
+    assert "rebuild the FMU" in result.message
