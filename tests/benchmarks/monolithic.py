@@ -26,7 +26,7 @@ WINDOWS: dict[str, dict[str, object]] = {
 """Parts of the bundled scenarios through the fracture, which falls on no macro step; instants at which
 errors are taken, a multiple of every macro step."""
 
-COLUMNS = ("solver", "H or rtol", "RMS force error", "film evaluations", "CPU s", "wall s")
+COLUMNS = ("solver", "H, tol, rtol", "RMS force error", "film evaluations", "CPU s", "wall s")
 Row = tuple[str, str, str, int, str, str]
 
 
