@@ -35,7 +35,6 @@ from rotor_fmu.train import Train
 
 __all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
 
-_PLAIN = Execution()
 _NO_TIME = Timing(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 QUICK_DEPTHS = ("v2", "v3")
@@ -46,7 +45,7 @@ WORTH_A_THREAD = 4
 
 
 def simulate(
-    scenario: Scenario, fmus: Path, progress: Progress | None = None, execution: Execution = _PLAIN
+    scenario: Scenario, fmus: Path, progress: Progress | None = None, execution: Execution | None = None
 ) -> Result:
     """Run a scenario on FMUs.
 
@@ -76,6 +75,7 @@ def simulate(
         When a checkpoint to go on from belongs to other FMUs.
     """
     announce = progress or (lambda _stage, _time: None)
+    execution = execution or Execution()  # one a run: its watchdog holds on to what the run uses
     train = train_of(scenario)
     clock = Stopwatch()
     with FmuStore() as store:
@@ -110,7 +110,7 @@ def carry_out(
     find: Callable[[], Start],
     clock: Stopwatch,
     announce: Progress,
-    execution: Execution = _PLAIN,
+    execution: Execution,
 ) -> Result:
     """Run an assembled system.
 
@@ -126,7 +126,7 @@ def carry_out(
         Started before the units were loaded.
     announce : callable
         See `Progress`.
-    execution : Execution, optional
+    execution : Execution
         Checkpoints and the like.
     """
     announce(Stage.WARM_UP, 0.0)

@@ -25,8 +25,6 @@ from orchestrator.system import System
 from orchestrator.unit import Unit, UnitError
 from rotor_fmu.train import Train
 
-_PLAIN = Execution()
-
 
 class SspRun:
     """An SSP, read and checked, ready to be run; a context that removes what was extracted.
@@ -69,7 +67,7 @@ class SspRun:
             for c in self._contents.structure.components
         }
 
-    def simulate(self, progress: Progress | None = None, execution: Execution = _PLAIN) -> Result:
+    def simulate(self, progress: Progress | None = None, execution: Execution | None = None) -> Result:
         """Run it from its start parameters; no equilibrium is sought.
 
         Raises
@@ -78,6 +76,7 @@ class SspRun:
             When an FMU cannot be instantiated, lacks the port or does not take its parameters.
         """
         announce = progress or (lambda _stage, _time: None)
+        execution = execution or Execution()
         execution.watchdog.partial = partial(failed_start, self.scenario, self.train, Outcome.UNIT_HUNG)
         execution.watchdog.leftovers += [self._store.remove, self._folder.cleanup]
         announce(Stage.LOAD, 0.0)
