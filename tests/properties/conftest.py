@@ -4,7 +4,8 @@ import os
 
 from hypothesis import HealthCheck, Phase, settings
 
-from tests.orchestrator.conftest import toy_fmus as toy_fmus  # a fixture
+from tests.orchestrator.conftest import room as room  # fixtures
+from tests.orchestrator.conftest import toy_fmus as toy_fmus
 
 _CHECKS = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
 _COMMON = {"deadline": None, "suppress_health_check": _CHECKS}

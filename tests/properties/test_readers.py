@@ -114,15 +114,6 @@ def ssp(fmus, tmp_path_factory):
     return unzipped(export(short, fmus, tmp_path_factory.mktemp("ssp") / "small.ssp", "small")[0])
 
 
-@pytest.fixture
-def room(tmp_path, monkeypatch):
-    """The folder for temporary files, empty."""
-    folder = tmp_path / "room"
-    folder.mkdir()
-    monkeypatch.setattr(tempfile, "tempdir", str(folder))
-    return folder
-
-
 TEXTS = ("SystemStructure.ssd", "resources/rotor.ssv", "resources/front.ssv")
 
 
