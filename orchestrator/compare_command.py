@@ -23,14 +23,13 @@ from orchestrator.errors import NotWrittenError
 from orchestrator.fmu_folder import ensure_fmus
 from orchestrator.outcome import Outcome
 from orchestrator.record_files import RECORD_FILE, read_record
-from orchestrator.result_files import NO_FIGURES, add_figures, room_for
+from orchestrator.result_files import add_figures, data_then_figures, room_for
 from orchestrator.result_folder import (
     FIGURES,
     PARTIAL,
     check_folder,
     check_room,
     partial_folder,
-    result_folder,
     temporary_prefix,
 )
 from orchestrator.scenario import DEPTHS
@@ -203,16 +202,12 @@ def _write_all(
     train: Train,
     formats: Sequence[str],
 ) -> None:
-    """Write the results: first the data, all or nothing, then the figures likewise."""
-    with result_folder(folder, _OURS) as fresh:
-        _write(pair, runs, fresh)
-        finished = not (fresh / PARTIAL).exists()
-        if formats and finished:
-            (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
-    if formats:
+    """Write data and figures of the comparison."""
+
+    def draw() -> None:
         add_figures(records, folder, train, pair[0].runs.seat.name, formats)
-        if finished:
-            (folder / PARTIAL).unlink()
+
+    data_then_figures(folder, lambda fresh: _write(pair, runs, fresh), draw if formats else None, _OURS)
 
 
 def _write(pair: tuple[Comparison, Comparison | None], runs: Path, fresh: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from orchestrator.errors import NotWrittenError
 from orchestrator.figures.write import write_figures
 from orchestrator.record_files import write_record
-from orchestrator.result_folder import FIGURES, PARTIAL, free_room, result_folder
+from orchestrator.result_folder import FIGURES, PARTIAL, RUN_FILES, free_room, result_folder
 from orchestrator.scenario_file import scenario_toml
 from orchestrator.summary_table import to_text
 
@@ -51,16 +51,46 @@ def write_all(
     NotWrittenError
         When the disk is full, or cannot be written to.
     """
-    drawn = bool(formats and summary.phases)
+
+    def draw() -> None:
+        add_figures([result.record], folder, train, summary.analysed, formats)
+
     with room_for([result.record], folder):
-        with result_folder(folder) as fresh:
-            write_data(result, summary, scenario, fresh)
-            if drawn and summary.finished:
-                (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
-        if drawn:
-            add_figures([result.record], folder, train, summary.analysed, formats)
-            if summary.finished:
-                (folder / PARTIAL).unlink()
+        data_then_figures(
+            folder,
+            lambda fresh: write_data(result, summary, scenario, fresh),
+            draw if formats and summary.phases else None,
+        )
+
+
+def data_then_figures(
+    folder: Path,
+    write: Callable[[Path], None],
+    draw: Callable[[], None] | None,
+    ours: Sequence[str] = RUN_FILES,
+) -> None:
+    """Write the data, all or nothing, then the figures likewise; the folder is marked as partial till then.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the results go.
+    write : callable
+        Fills a new folder with the data; may mark it as partial itself.
+    draw : callable or None
+        Adds the figures to `folder`, if there are any to be.
+    ours : sequence of str
+        See `result_folder`.
+    """
+    with result_folder(folder, ours) as fresh:
+        write(fresh)
+        finished = not (fresh / PARTIAL).exists()
+        if draw is not None and finished:
+            (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
+    if draw is not None:
+        draw()
+        if finished:
+            (folder / PARTIAL).unlink()
 
 
 def add_figures(

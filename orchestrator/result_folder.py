@@ -14,7 +14,7 @@ from orchestrator.errors import OrchestratorError
 PARTIAL = "PARTIAL.txt"
 """Name of the file that marks a run that did not reach its end, with the reason."""
 FIGURES = "figures"
-_OURS = ("record.nc", "record.csv", "summary.txt", "summary.json", "scenario.toml", FIGURES, PARTIAL)
+RUN_FILES = ("record.nc", "record.csv", "summary.txt", "summary.json", "scenario.toml", FIGURES, PARTIAL)
 _SIGN = "scenario.toml"  # a folder with this file and nothing alien to it is an earlier result
 
 
@@ -50,7 +50,7 @@ def check_writable(folder: Path) -> None:
     """Raise ResultFolderError when a folder cannot be made, or nothing can be written to it."""
     if folder.exists() and not folder.is_dir():
         raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
-    parent = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    parent = _nearest(folder)
     try:  # what the permissions say is not all: the file system may be read-only or full
         with tempfile.TemporaryFile(dir=parent) as file:
             file.write(b"room for a file")
@@ -70,8 +70,12 @@ def check_room(folder: Path, needed: float) -> None:
 
 def free_room(folder: Path) -> int:
     """Bytes that are free where a folder is, or will be."""
-    existing = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-    return shutil.disk_usage(existing).free
+    return shutil.disk_usage(_nearest(folder)).free
+
+
+def _nearest(folder: Path) -> Path:
+    """The folder, or the lowest above it that exists."""
+    return next(path for path in (folder, *folder.absolute().parents) if path.exists())
 
 
 def partial_folder(folder: Path) -> Path:
@@ -85,7 +89,7 @@ def temporary_prefix(folder: Path) -> str:
 
 
 @contextmanager
-def result_folder(folder: Path, ours: Sequence[str] = _OURS) -> Iterator[Path]:
+def result_folder(folder: Path, ours: Sequence[str] = RUN_FILES) -> Iterator[Path]:
     """Write results into a temporary folder that takes its place at the end.
 
     Parameters
