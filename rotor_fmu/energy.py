@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.assembly import ShaftModel
+from rotor_fmu.condensation import Equilibrium
 from rotor_fmu.modal_shaft import ModalShaft
-from rotor_fmu.rotor_state import RotorState
 
 Array = NDArray[np.float64]
 
@@ -49,10 +49,9 @@ class EnergyMeter:
         self._weight = gravity * model.gravity
         self._modal_weight = self._weight @ shaft.T
 
-    def __call__(self, state: RotorState) -> Energy:
-        """Energies at a state."""
-        p, v = np.split(state.modal, 2)
-        static = state.static
+    def __call__(self, state: Array, static: Equilibrium[np.float64]) -> Energy:
+        """Energies at modal displacements and velocities (p, p'), (2 m,), about a static equilibrium."""
+        p, v = np.split(state, 2)
         weight_work = float(self._modal_weight @ p)
         bearing_work = float(static.wrench @ (self._shaft.bearing @ p))
         rest = 0.5 * float(static.shape @ (self._stiffness @ static.shape))

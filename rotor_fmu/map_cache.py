@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from collections.abc import Callable
 from typing import TypeVar
@@ -11,9 +12,11 @@ from numpy.typing import NDArray
 
 from rotor_fmu.assembly import ShaftModel
 from rotor_fmu.condensation import CondensedShaft, condense_harmonic
+from rotor_fmu.coordinates import Coordinates, Maps
 from rotor_fmu.modal_shaft import ModalShaft
-from rotor_fmu.state_space import StepMaps, harmonic_map, step_maps
+from rotor_fmu.state_space import ModalCoordinates
 from rotor_fmu.unbalance import Unbalance
+from rotor_fmu.whirl_coordinates import whirl_coordinates
 from rotor_fmu.work import WorkMaps, work_maps
 
 Array = NDArray[np.float64]
@@ -43,12 +46,20 @@ class MapCache:
 
     def __init__(self, model: ShaftModel, shaft: ModalShaft, unbalance: Unbalance) -> None:
         self._model, self._shaft, self._unbalance = model, shaft, unbalance
-        self._steps: OrderedDict[tuple[float, float], StepMaps] = OrderedDict()
+        self._modal = ModalCoordinates(shaft)
+        self._coordinates: OrderedDict[float, Coordinates] = OrderedDict()
+        self._steps: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
-        self._kicks: OrderedDict[tuple[float, float], Array] = OrderedDict()
+        self._kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
 
-    def step(self, speed: float, step: float, end: float = 0.0) -> StepMaps:
+    def coordinates(self, speed: float | None) -> Coordinates:
+        """The coordinates of a motion: modal for None, else those in which steps at a speed are taken."""
+        if speed is None:
+            return self._modal
+        return _recall(self._coordinates, speed, lambda: whirl_coordinates(self._shaft, speed) or self._modal)
+
+    def step(self, speed: float, step: float, end: float = 0.0) -> Maps:
         """Maps over a step, for the nominal unbalance and the lost blade's.
 
         Parameters
@@ -66,9 +77,12 @@ class MapCache:
         length = self._settled(speed, step, end)
         return _recall(self._works, (speed, length), lambda: self._new_work(speed, length))
 
-    def kick(self, speed: float, duration: float) -> Array:
-        """State after `duration` from rest under the lost blade's unbalance alone, (2 m, 2)."""
-        return _recall(self._kicks, (speed, duration), lambda: self._new_kick(speed, duration))
+    def kick(self, speed: float, duration: float, angle: float) -> Array:
+        """Motion after `duration` from rest under the lost blade's unbalance, from `angle` on, (2 m,)."""
+        maps = _recall(self._kicks, (speed, duration), lambda: self._new_step(speed, duration))
+        states, loads = 2 * self._shaft.size, len(self._shaft.bearing)
+        turn = np.array([0.0, 0.0, math.cos(angle), math.sin(angle)])
+        return maps.coast(np.zeros(states), np.zeros(loads), turn)
 
     def harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         """Steady vibration under the nominal unbalance, condensed onto the journals."""
@@ -87,14 +101,11 @@ class MapCache:
         blade = self._unbalance.blade_force(self._shaft, speed)
         return np.hstack([nominal, blade])
 
-    def _new_step(self, speed: float, step: float) -> StepMaps:
-        return step_maps(self._shaft, speed, step, self._forces(speed))
+    def _new_step(self, speed: float, step: float) -> Maps:
+        return self.coordinates(speed).maps(speed, step, self._forces(speed))
 
     def _new_work(self, speed: float, step: float) -> WorkMaps:
         return work_maps(self._shaft, speed, step, self._forces(speed))
-
-    def _new_kick(self, speed: float, duration: float) -> Array:
-        return harmonic_map(self._shaft, speed, duration, self._unbalance.blade_force(self._shaft, speed))
 
     def _new_harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         nominal = self._unbalance.nominal_force(self._shaft, speed)

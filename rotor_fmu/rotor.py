@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu import initial_state
-from rotor_fmu.affine_step import AffineStep
+from rotor_fmu.affine_step import AffineStep, journal_motion
 from rotor_fmu.condensation import Equilibrium, condense_static
+from rotor_fmu.coordinates import Coordinates
 from rotor_fmu.energy import Energy, EnergyMeter
 from rotor_fmu.fields import Extremes, FieldMap, NodeFields
 from rotor_fmu.map_cache import MapCache
@@ -98,7 +98,7 @@ class Rotor:
         model = self.model = shaft.model
         self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
         self._maps = MapCache(model, self.shaft, unbalance)
-        self._stepper = AffineStep(self.shaft)
+        self._stepper = AffineStep(self.shaft.bearings)
         self._fields = FieldMap(self.shaft, shaft.bending, model.z, gravity)
         self._energy = EnergyMeter(model, self.shaft, gravity)
         self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
@@ -186,33 +186,32 @@ class Rotor:
         broken = 1.0 if fracture <= t else 0.0
         kick = None
         if t < fracture < t + H:
-            at_fracture = angle + speed * (fracture - t)
-            rotation = np.array([math.cos(at_fracture), math.sin(at_fracture)])
-            kick = self._maps.kick(speed, t + H - fracture) @ rotation
-        end = np.empty_like(state.modal)
+            kick = self._maps.kick(speed, t + H - fracture, angle + speed * (fracture - t))
+        coordinates = self._maps.coordinates(speed)
         self._stepper.set_law(K, C)
-        self._stepper.advance(
+        end = self._stepper.advance(
+            coordinates,
             self._maps.step(speed, H, t + H),
-            state.modal,
+            self._motion_in(coordinates),
             journals,
             F0,
-            (cos, sin, broken * cos, broken * sin),
+            np.array([cos, sin, broken * cos, broken * sin]),
             kick,
             state.static,
-            end,
         )
-        self.set_state(RotorState(end, math.fmod(angle + speed * H, 2.0 * math.pi), state.static, state.work))
+        work = state.work
         if self._ledger is not None:
             w0 = self._stepper.wrench(F0, journals, state.static)
-            w1 = self._stepper.wrench(F0, self._journals, state.static)
+            w1 = self._stepper.wrench(F0, journal_motion(coordinates, end, state.static), state.static)
             turn = (angle, speed)
-            done = self._ledger.over_step((t, H), fracture, turn, state.modal, (w0, w1), state.static)
-            work = Work(*(a + b for a, b in zip(state.work, done, strict=True)))
-            self._state = replace(self._state, work=work)
+            done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), (w0, w1), state.static)
+            work = Work(*(a + b for a, b in zip(work, done, strict=True)))
+        turned = math.fmod(angle + speed * H, 2.0 * math.pi)
+        self.set_state(RotorState(end, turned, state.static, coordinates.speed, work))
 
     def energy(self) -> Energy:
         """Kinetic energy of the vibration, strain energy and potential in gravity now [J]."""
-        return self._energy(self._state)
+        return self._energy(self.modal_state(), self._state.static)
 
     def work(self) -> Work:
         """Works since the start [J]; the rotor must keep account of them (`track_work`)."""
@@ -222,11 +221,20 @@ class Rotor:
 
     def fields(self) -> NodeFields:
         """Displacement, vibration amplitude and normal stress at all nodes now."""
-        return self._fields.fields(self._state.modal[: self.shaft.size], self._state.static)
+        return self._fields.fields(self.modal_state()[: self.shaft.size], self._state.static)
 
     def extremes(self) -> Extremes:
         """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
-        return self._fields.extremes(self._state.modal[: self.shaft.size], self._state.static)
+        return self._fields.extremes(self.modal_state()[: self.shaft.size], self._state.static)
+
+    def modal_state(self) -> Array:
+        """Modal displacements and velocities (p, p') of the vibration now, (2 m,)."""
+        return self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
+
+    def _motion_in(self, coordinates: Coordinates) -> Array:
+        if coordinates.speed == self._state.speed:
+            return self._state.motion
+        return coordinates.from_modal(self.modal_state())
 
     def get_state(self) -> RotorState:
         """The state now; it is never changed in place and may be kept without copying."""
@@ -234,12 +242,13 @@ class Rotor:
 
     def set_state(self, state: RotorState) -> None:
         """Go on from a state of this rotor or of another one of the same train and reduction."""
-        sizes = (len(state.modal), len(state.static.shape), len(state.static.wrench))
+        sizes = (len(state.motion), len(state.static.shape), len(state.static.wrench))
         allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
         if sizes != allowed:
             raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
         self._state = state
-        self._journals = self._stepper.journals(state.modal, state.static)
+        coordinates = self._maps.coordinates(state.speed)
+        self._journals = journal_motion(coordinates, state.motion, state.static)
 
     def _angle_at(self, time: float) -> float:
         return math.fmod(self._speed * time, 2.0 * math.pi)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from dataclasses import dataclass, field
 
@@ -13,8 +14,8 @@ from rotor_fmu.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3q4d")
-_MAGIC = b"rotor\0\0\2"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s3q5d")
+_MAGIC = b"rotor\0\0\3"  # the last byte is the version of the layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,27 +24,31 @@ class RotorState:
 
     Attributes
     ----------
-    modal : ndarray, (2 m,)
-        Modal displacements and velocities of the vibration about the static equilibrium.
+    motion : ndarray, (2 m,)
+        The vibration about the static equilibrium, see `rotor_fmu.coordinates`.
     angle : float
         Angle of rotation theta [rad], in [-2 pi, 2 pi].
     static : Equilibrium
         The static equilibrium: n displacements, 4 n_b journal displacements and wrenches.
+    speed : float or None
+        To which the coordinates of the motion belong [rad/s]; None for modal ones.
     work : Work
         Done since the start, if the rotor keeps account of it.
     """
 
-    modal: Array
+    motion: Array
     angle: float
     static: Equilibrium[np.float64]
+    speed: float | None = None
     work: Work = field(default_factory=Work)
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
         static = self.static
-        sizes = (len(self.modal), len(static.shape), len(static.wrench))
-        header = _HEADER.pack(_MAGIC, *sizes, self.angle, *self.work)
-        arrays = (self.modal, static.shape, static.journals, static.wrench)
+        sizes = (len(self.motion), len(static.shape), len(static.wrench))
+        speed = math.nan if self.speed is None else self.speed
+        header = _HEADER.pack(_MAGIC, *sizes, self.angle, speed, *self.work)
+        arrays = (self.motion, static.shape, static.journals, static.wrench)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
     @classmethod
@@ -57,10 +62,11 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, angle, *work = _HEADER.unpack_from(data)
+        _, states, displacements, loads, angle, speed, *work = _HEADER.unpack_from(data)
         sizes = (states, displacements, loads, loads)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
         numbers = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
-        modal, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
-        return cls(modal, angle, Equilibrium(shape, journals, wrench), Work(*work))
+        motion, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
+        static = Equilibrium(shape, journals, wrench)
+        return cls(motion, angle, static, None if math.isnan(speed) else speed, Work(*work))

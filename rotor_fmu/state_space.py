@@ -1,4 +1,4 @@
-"""The exact maps of the shaft over one macro step.
+"""The exact maps of any shaft over one macro step; for circular ones see `rotor_fmu.whirl_coordinates`.
 
 With x = (p, p') the shaft at constant speed is x' = A x + B w + b e^{i theta}.
 Over a step of length H the wrenches w on the journals run linearly from w0 to w1
@@ -21,14 +21,13 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from rotor_fmu.modal_shaft import ModalShaft
-from rotor_fmu.whirl_plane import WhirlMaps, alike, whirl_maps
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class StepMaps:
-    """Maps over a step at one speed; m coordinates, n_b bearings, h harmonic inputs.
+    """Maps over a step at one speed, see `rotor_fmu.coordinates.Maps`.
 
     Attributes
     ----------
@@ -38,14 +37,50 @@ class StepMaps:
         End state from the wrenches w1 at the end.
     compliance : ndarray, (n_b, 8, 4 n_b)
         S: journal displacements and velocities at the end from w1.
-    whirl : WhirlMaps or None
-        The first two in the complex plane, where the bending planes are alike.
     """
 
     free: Array
     wrench_end: Array
     compliance: Array
-    whirl: WhirlMaps | None
+
+    def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
+        """(p, p') at the end if the wrenches end with the step."""
+        return np.asarray(self.free @ np.concatenate([motion, wrench, rotation]))
+
+    def add_end(self, wrench: Array, motion: Array) -> None:
+        """Add what the wrenches at the end do."""
+        motion += self.wrench_end @ wrench
+
+
+class ModalCoordinates:
+    """(p, p') themselves, for shafts of any kind; see `rotor_fmu.coordinates.Coordinates`.
+
+    Parameters
+    ----------
+    shaft : ModalShaft
+        The shaft.
+    """
+
+    speed = None
+
+    def __init__(self, shaft: ModalShaft) -> None:
+        self._shaft, self._output = shaft, journal_output(shaft)
+
+    def from_modal(self, state: Array) -> Array:
+        """The same."""
+        return state
+
+    def to_modal(self, motion: Array) -> Array:
+        """The same."""
+        return motion
+
+    def journals(self, motion: Array) -> Array:
+        """Displacements and velocities (q, v) of the journals, (8 n_b,)."""
+        return np.asarray(self._output @ motion)
+
+    def maps(self, speed: float, step: float, harmonic: Array) -> StepMaps:
+        """Maps over a step."""
+        return step_maps(self._shaft, speed, step, harmonic)
 
 
 def state_matrix(shaft: ModalShaft, speed: float) -> Array:
@@ -94,28 +129,7 @@ def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> 
     free = np.hstack([state[:, : 2 * m + loads], state[:, 2 * m + 2 * loads :]])
     free[:, 2 * m : 2 * m + loads] -= end
     compliance = journal_output(shaft) @ end
-    whirl = whirl_maps(free, end) if alike(shaft.bearing) else None
-    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads), whirl)
-
-
-def harmonic_map(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> Array:
-    """State after `step` from rest under a harmonic force alone.
-
-    Parameters
-    ----------
-    shaft, speed, harmonic
-        As for `step_maps`.
-    step : float
-        Duration [s], 0 allowed.
-
-    Returns
-    -------
-    ndarray, (2 m, 2 h)
-        Factors of (cos theta, sin theta) at the start, for each input.
-    """
-    m = shaft.size
-    A, scale = _scaled(shaft, speed, harmonic, _rotation_rate(harmonic.shape[1], speed))
-    return _unscaled(scipy.linalg.expm(A * step), scale)[:, 2 * m :]
+    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads))
 
 
 def augmented_matrix(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> tuple[Array, Array]:

@@ -166,7 +166,7 @@ def holistic_model(scenario: Scenario, train: Train, start: Start) -> Holistic:
             for seat in train.bearings
         ),
         offsets=start.offsets.copy(),
-        start=state.modal.copy(),
+        start=rotor.modal_state().copy(),
     )
 
 

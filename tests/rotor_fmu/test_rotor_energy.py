@@ -26,7 +26,7 @@ def test_energies_are_those_of_the_unreduced_displacements():
     rotor, law = small_rotor(gravity=GRAVITY), linear_bearings()
     rotor.start_from_law(*law, orbit=True)
     state, model = rotor.get_state(), rotor.model
-    p, v = np.split(state.modal, 2)
+    p, v = np.split(rotor.modal_state(), 2)
     q, rate = state.static.shape + rotor.shaft.T @ p, rotor.shaft.T @ v
     energy = rotor.energy()
     assert energy.kinetic == pytest.approx(rate @ (model.M @ rate) / 2, rel=1e-10)

@@ -30,7 +30,7 @@ def running(request):
 def displacement(rotor):
     """Static shape and vibration of the unreduced shaft."""
     state = rotor.get_state()
-    return state.static.shape, rotor.shaft.T @ state.modal[: rotor.shaft.size]
+    return state.static.shape, rotor.shaft.T @ rotor.modal_state()[: rotor.shaft.size]
 
 
 def test_displacement_and_amplitude(running):

@@ -87,10 +87,10 @@ def tilted(model):
 def test_steady_vibration_without_bearing_forces_goes_on_exactly():
     rotor = small_rotor(ground=50.0)
     rotor.start_from_law(*no_law(), orbit=True)
-    start = rotor.get_state().modal
+    start = rotor.modal_state()
     turns, steps = 3, 300
     run(rotor, no_law(), 2 * np.pi * turns / SPEED / steps, steps)
-    np.testing.assert_allclose(rotor.get_state().modal, start, rtol=0, atol=1e-12 * np.abs(start).max())
+    np.testing.assert_allclose(rotor.modal_state(), start, rtol=0, atol=1e-12 * np.abs(start).max())
 
 
 def test_orbit_in_linear_bearings_is_the_harmonic_solution_of_the_coupled_system():
@@ -139,7 +139,7 @@ def test_start_from_the_positions_of_an_orbit_is_the_start_from_its_law(train, t
     cos, sin = (r.kinematics()[:, :4] - static for r in (at_zero, later))
     by_positions.start_from_positions(static, cos, sin, time=time)
     a, b = by_law.get_state(), by_positions.get_state()
-    np.testing.assert_allclose(b.modal, a.modal, rtol=0, atol=1e-10 * np.abs(a.modal).max())
+    np.testing.assert_allclose(b.motion, a.motion, rtol=0, atol=1e-10 * np.abs(a.motion).max())
     sag = np.abs(a.static.shape).max()
     np.testing.assert_allclose(b.static.shape, a.static.shape, rtol=0, atol=1e-12 * sag)
     np.testing.assert_allclose(by_positions.static_wrench(), by_law.static_wrench(), rtol=0, atol=1e-5)
@@ -171,15 +171,15 @@ def test_a_step_repeated_from_a_kept_state_is_the_same_bit_by_bit():
     rotor.start_from_law(*law, orbit=True)
     run(rotor, law, 0.01, 5)
     kept = rotor.get_state()
-    image = kept.modal.copy()
+    image = kept.motion.copy()
     run(rotor, law, 0.01, 7, start=5)
     first, y = rotor.get_state(), rotor.kinematics()
     rotor.set_state(kept)
     run(rotor, law, 0.005, 3, start=10)
-    assert np.array_equal(kept.modal, image)
+    assert np.array_equal(kept.motion, image)
     rotor.set_state(kept)
     run(rotor, law, 0.01, 7, start=5)
-    assert np.array_equal(rotor.get_state().modal, first.modal)
+    assert np.array_equal(rotor.get_state().motion, first.motion)
     assert rotor.get_state().angle == first.angle
     assert np.array_equal(rotor.kinematics(), y)
 

@@ -29,7 +29,7 @@ def direct(rotor, law, T, speed=lambda t: SPEED, breaks=()):
     M, D, G, stiffness = (a.toarray() for a in (rotor.model.M, rotor.model.D, rotor.model.G, rotor.model.K))
     n, u = len(M), rotor.unbalance
     static = rotor.get_state().static
-    q, p = static.shape, rotor.get_state().modal
+    q, p = static.shape, rotor.modal_state()
     modes = rotor.shaft.T
     x0 = np.concatenate([q + modes @ p[:n], modes @ p[n:]])
     weight = static_load(rotor)
@@ -90,9 +90,9 @@ def test_the_law_holds_at_both_ends_and_is_linear_between():
     w0, w1 = (F0 - np.einsum("bij,bj->bi", law, y) for y in (before, after))
     static = state.static.wrench
     maps = rotor._maps.step(SPEED, H)
-    entry = np.concatenate([state.modal, w0.ravel() - static, [1.0, 0.0, 0.0, 0.0]])
+    entry = np.concatenate([state.motion, w0.ravel() - static, [1.0, 0.0, 0.0, 0.0]])
     expected = maps.free @ entry + maps.wrench_end @ (w1.ravel() - static)
-    np.testing.assert_allclose(rotor.get_state().modal, expected, rtol=0, atol=1e-13 * np.abs(expected).max())
+    np.testing.assert_allclose(rotor.modal_state(), expected, rtol=0, atol=1e-13 * np.abs(expected).max())
 
 
 def test_linear_bearings_converge_with_second_order_to_the_coupled_system():
@@ -131,7 +131,8 @@ def coupled_by_exponential(rotor, law, T):
     A[-2, -1], A[-1, -2] = -SPEED, SPEED
     state = rotor.get_state()
     modes = rotor.shaft.T
-    x0 = [state.static.shape + modes @ state.modal[:n], modes @ state.modal[n:], [1.0, 1.0, 0.0]]
+    p = rotor.modal_state()
+    x0 = [state.static.shape + modes @ p[:n], modes @ p[n:], [1.0, 1.0, 0.0]]
     x = expm(A * T) @ np.concatenate(x0)
     return np.hstack([x[NODES].reshape(-1, 4), x[n + NODES].reshape(-1, 4)])
 
@@ -157,7 +158,7 @@ def test_a_fracture_inside_a_step_equals_steps_split_at_the_event():
     run(split, no_law(), 0.05, 2)
     split.step(0.1, 0.013, *no_law(), SPEED)
     split.step(0.113, 0.037, *no_law(), SPEED)
-    one, other = whole.get_state().modal, split.get_state().modal
+    one, other = whole.modal_state(), split.modal_state()
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * np.abs(one).max())
     unbroken = run(broken_rotor(math.inf), no_law(), 0.05, 3)
     assert (
@@ -182,7 +183,7 @@ def test_step_size_may_change_at_will():
     a.step(0.0, 0.06, F0, K, C, SPEED)
     for t, H in ((0.0, 0.01), (0.01, 0.03), (0.04, 0.02)):
         b.step(t, H, F0, K, C, SPEED)
-    np.testing.assert_allclose(a.get_state().modal, b.get_state().modal, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(a.modal_state(), b.modal_state(), rtol=0, atol=1e-13)
     assert a.get_state().angle == pytest.approx(b.get_state().angle, rel=1e-15)
 
 

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from small_shafts import gyroscopic, matrix_rotor, no_law, run, unbalance, unreduced
 
 from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.state_space import harmonic_map, state_matrix, step_maps
+from rotor_fmu.state_space import state_matrix, step_maps
 
 
 def oscillator(*, mass=2.0, stiffness=800.0, damping=3.0, speed=15.0, amount=0.1, phase=0.4):
@@ -118,9 +118,3 @@ def test_a_rigid_free_body_coasts_and_falls():
         [place + speed * H + force / mass * H**2 / 2, speed + force / mass * H],
         rtol=1e-14,
     )
-
-
-def test_harmonic_map_of_no_time_is_nothing():
-    shaft, _ = modal_shaft()
-    force = np.ones((shaft.size, 2))
-    assert np.all(harmonic_map(shaft, 12.0, 0.0, force) == 0.0)
