@@ -99,12 +99,22 @@ class UnitSlave(Fmi2Slave):
     def observe(self, group: str) -> None:
         """Write the lazy variables of `group` for the present state."""
 
-    def model_state(self) -> bytes:
-        """Return what the model holds beyond the values."""
+    def model_state(self) -> Any:
+        """Return what the model holds beyond the values, as something never changed in place."""
+        return None
+
+    def restore_model(self, state: Any) -> None:
+        """Take back what `model_state` returned; `prepare` has run."""
+
+    @staticmethod
+    def pack_model(state: Any) -> bytes:
+        """Return what `model_state` returned as bytes."""
         return b""
 
-    def restore_model(self, state: bytes) -> None:
-        """Take back what `model_state` returned; `prepare` has run."""
+    @staticmethod
+    def unpack_model(packed: bytes) -> Any:
+        """Return what `pack_model` packed; ValueError if it is damaged."""
+        return None
 
     # -- life cycle ----------------------------------------------------------
 
@@ -243,44 +253,46 @@ class UnitSlave(Fmi2Slave):
 
     # -- state ---------------------------------------------------------------
 
-    def _get_fmu_state(self) -> bytes:
+    def _get_fmu_state(self) -> UnitState:
         """Return the whole unit: values, texts, model, and where it stands."""
-        prepared = self._prepared_for == self._store.parameters()
-        return UnitState(
-            self._mode,
-            prepared,
-            self._unsolved,
-            sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale),
-            self.start_time,
-            self._store.pack(),
-            [self._failure, self._misuse, *self.strings.values()],
-            self.model_state() if prepared else b"",
-        ).pack(self.digest)
+        # parameters cannot change in the step mode
+        known = self._prepared_for
+        prepared = known is not None and (self._mode == STEP or known == self._store.parameters())
+        stale = sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale)
+        texts = [self._failure, self._misuse, *self.strings.values()]
+        model = self.model_state() if prepared else None
+        numbers = self._store.pack()
+        return UnitState(self._mode, prepared, self._unsolved, stale, self.start_time, numbers, texts, model)
 
-    def _set_fmu_state(self, state: bytes) -> None:
+    def _set_fmu_state(self, state: UnitState | bytes) -> None:
         problem = attempt(self._restore, state)
         if problem:
             self._misuse = problem
             self._report(problem, Fmi2Status.error)
 
-    def _restore(self, packed: bytes) -> None:
-        state = unpack(packed, self.digest, 2 + len(self.strings))
+    def _restore(self, state: UnitState | bytes) -> None:
+        if isinstance(state, bytes):
+            state = unpack(state, self.digest, 2 + len(self.strings))
+            state = state._replace(model=self.unpack_model(state.model) if state.model else None)
         self._store.unpack(state.values)
         self._failure, self._misuse, *strings = state.texts
         self.strings.update(zip(self.strings, strings, strict=True))
         if state.prepared:
             self._prepare_if_changed()
+        if state.model is not None:
             self.restore_model(state.model)
         self._mode, self._unsolved, self.start_time = state.mode, state.unsolved, state.start_time
         self._stale = {group for i, group in enumerate(self.layout.lazy) if state.stale >> i & 1}
 
-    @staticmethod
-    def _fmu_state_to_bytes(state: bytes) -> bytes:
-        return state
+    @classmethod
+    def _fmu_state_to_bytes(cls, state: UnitState | bytes) -> bytes:  # pythonfmu asks the class
+        if isinstance(state, bytes):
+            return state
+        return state.pack(cls.digest, b"" if state.model is None else cls.pack_model(state.model))
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> bytes:
-        return state
+        return state  # unpacked where it is restored, where a problem can be reported
 
     def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
         # the text passes through printf on its way out

@@ -1,17 +1,16 @@
-"""The FMU state as bytes: one block that holds a unit to the last bit."""
+"""The FMU state, and as bytes: one block that holds a unit to the last bit."""
 
 from __future__ import annotations
 
 import json
 import struct
-from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 _HEADER = struct.Struct("<16sBBBBIIId")
 
 
-@dataclass(frozen=True)
-class UnitState:
-    """What a unit's state holds.
+class UnitState(NamedTuple):
+    """What a unit's state holds; taken at every step that may be taken back, so that nothing is packed yet.
 
     Attributes
     ----------
@@ -27,8 +26,8 @@ class UnitState:
         All numbers, float64 in the order of the value references.
     texts : list of str
         Failure, misuse, then the String variables.
-    model : bytes
-        State of the model.
+    model : object
+        State of the model, never changed in place; None where there is none.
     """
 
     mode: int
@@ -38,19 +37,19 @@ class UnitState:
     start_time: float
     values: bytes
     texts: list[str]
-    model: bytes
+    model: Any
 
-    def pack(self, digest: bytes) -> bytes:
-        """Return the state as bytes, marked as that of the FMU `digest` (16 bytes)."""
+    def pack(self, digest: bytes, model: bytes) -> bytes:
+        """Return the state as bytes, that of the model given, marked as of the FMU `digest` (16 bytes)."""
         texts = json.dumps(self.texts).encode() if any(self.texts) else b""
-        sizes = len(self.values), len(texts), len(self.model)
+        sizes = len(self.values), len(texts), len(model)
         flags = self.prepared, self.unsolved, self.stale
         header = _HEADER.pack(digest, self.mode, *flags, *sizes, self.start_time)
-        return b"".join((header, self.values, texts, self.model))
+        return b"".join((header, self.values, texts, model))
 
 
 def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
-    """Read what `UnitState.pack` wrote.
+    """Read what `UnitState.pack` wrote; the model's state as its bytes.
 
     Parameters
     ----------

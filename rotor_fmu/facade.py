@@ -128,10 +128,20 @@ class RotorSlave(UnitSlave):
         for key in ("x", "y", "amplitude", "stress"):
             self.values[self.layout.block(f"node[1].{key}", f"node[{nodes}].{key}")] = getattr(fields, key)
 
-    def model_state(self) -> bytes:
+    def model_state(self) -> RotorState:
         """Return the state of the shaft."""
-        return self._rotor.get_state().to_bytes()
+        return self._rotor.get_state()
 
-    def restore_model(self, state: bytes) -> None:
+    def restore_model(self, state: RotorState) -> None:
         """Take back the state of the shaft."""
-        self._rotor.set_state(RotorState.from_bytes(state))
+        self._rotor.set_state(state)
+
+    @staticmethod
+    def pack_model(state: RotorState) -> bytes:
+        """Return the state of the shaft as bytes."""
+        return state.to_bytes()
+
+    @staticmethod
+    def unpack_model(packed: bytes) -> RotorState:
+        """Return the state of the shaft."""
+        return RotorState.from_bytes(packed)

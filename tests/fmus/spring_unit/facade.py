@@ -61,7 +61,15 @@ class SpringSlave(UnitSlave):
         self.values[LAYOUT["energy"]] = 0.5 * self.stiffness * self.inputs[0] ** 2
 
     def model_state(self):
-        return struct.pack("<d", self.work if hasattr(self, "work") else 0.0)
+        return self.work if hasattr(self, "work") else 0.0
 
     def restore_model(self, state):
-        (self.work,) = struct.unpack("<d", state)
+        self.work = state
+
+    @staticmethod
+    def pack_model(state):
+        return struct.pack("<d", state)
+
+    @staticmethod
+    def unpack_model(packed):
+        return struct.unpack("<d", packed)[0]
