@@ -187,9 +187,10 @@ class UnitSlave(Fmi2Slave):
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Return values, computed first where that is due."""
-        self._update(vrs)
+        block = self._store.block(vrs)
+        self._update(vrs, block)
         try:
-            return self._store.read(vrs)
+            return self._store.read(vrs, block)
         except IndexError:
             self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
             return [math.nan] * len(vrs)
@@ -208,28 +209,31 @@ class UnitSlave(Fmi2Slave):
 
     def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
         """Set inputs, and parameters before the end of initialization."""
-        if self._accepts(vrs, "Real"):
-            self._store.write(vrs, values)
+        self._write("Real", vrs, values)
 
     def set_integer(self, vrs: list[int], values: Sequence[int]) -> None:
         """Set Integer parameters."""
-        if self._accepts(vrs, "Integer"):
-            self._store.write(vrs, values)
+        self._write("Integer", vrs, values)
 
     def set_boolean(self, vrs: list[int], values: Sequence[bool]) -> None:
         """Set Boolean parameters."""
-        if self._accepts(vrs, "Boolean"):
-            self._store.write(vrs, values)
+        self._write("Boolean", vrs, values)
 
     def set_string(self, vrs: list[int], values: Sequence[str]) -> None:
         """Set String parameters."""
         if self._accepts(vrs, "String"):
             self.strings.update(zip(vrs, values, strict=True))
 
-    def _accepts(self, vrs: list[int], kind: Kind) -> bool:
+    def _write(self, kind: Kind, vrs: list[int], values: Sequence[float]) -> None:
+        block = self._store.block(vrs)
+        if self._accepts(vrs, kind, block):
+            self._store.write(vrs, values, block)
+
+    def _accepts(self, vrs: list[int], kind: Kind, block: slice | None = None) -> bool:
         """Tell whether FMI allows to set these now; if not, no step will follow."""
         if self._mode == STEP:
-            allowed = kind == "Real" and max(vrs, default=0) < self.layout.inputs.stop
+            end = max(vrs, default=-1) + 1 if block is None else block.stop
+            allowed = kind == "Real" and end <= self.layout.inputs.stop
         else:
             allowed = self.layout.settable[kind].issuperset(vrs)
             self._unsolved = True
@@ -240,10 +244,13 @@ class UnitSlave(Fmi2Slave):
             self._report(self._misuse, Fmi2Status.error)
         return allowed
 
-    def _update(self, vrs: list[int]) -> None:
+    def _update(self, vrs: list[int], block: slice | None) -> None:
         if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
             self._solve()
         for group in tuple(self._stale):
+            first, last = self.layout.lazy_span[group]
+            if block is not None and (block.stop <= first or last < block.start):
+                continue  # at a glance, for it is asked at every step
             if not self.layout.lazy[group].isdisjoint(vrs):
                 problem = self._failure or attempt(self.observe, group)
                 if problem:

@@ -33,17 +33,20 @@ class Store:
         self._bytes = self.values.view(np.uint8)
         self.strings = dict(layout.strings)
 
-    def read(self, vrs: list[int]) -> list[float]:
-        """Return the numbers at `vrs`; IndexError if there is no such reference."""
-        block = slice(vrs[0], vrs[0] + len(vrs)) if vrs else slice(0)
-        if self._references[block] == vrs:
+    def block(self, vrs: list[int]) -> slice | None:
+        """Return where `vrs` lie if they are neighbours in ascending order, else None."""
+        block = slice(vrs[0], vrs[0] + len(vrs)) if vrs else slice(0, 0)
+        return block if self._references[block] == vrs else None
+
+    def read(self, vrs: list[int], block: slice | None) -> list[float]:
+        """Return the numbers at `vrs`, lying in `block`; IndexError if there is no such reference."""
+        if block is not None:
             return self._array[block].tolist()
         return [self._array[i] for i in vrs]
 
-    def write(self, vrs: list[int], numbers: Sequence[float]) -> None:
-        """Set the numbers at `vrs`."""
-        block = slice(vrs[0], vrs[0] + len(vrs)) if vrs else slice(0)
-        if self._references[block] == vrs:
+    def write(self, vrs: list[int], numbers: Sequence[float], block: slice | None) -> None:
+        """Set the numbers at `vrs`, lying in `block`."""
+        if block is not None:
             self._array[block] = array("d", numbers)
         else:
             for i, number in zip(vrs, numbers, strict=True):

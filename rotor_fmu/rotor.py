@@ -56,6 +56,7 @@ class Rotor:
 
     _state: RotorState
     _journals: Array
+    _modal: Array | None
 
     def __init__(
         self,
@@ -221,15 +222,17 @@ class Rotor:
 
     def fields(self) -> NodeFields:
         """Displacement, vibration amplitude and normal stress at all nodes now."""
-        return self._fields.fields(self.modal_state()[: self.shaft.size], self._state.static)
+        return self._fields.fields(self.modal_state(), self._state.static)
 
     def extremes(self) -> Extremes:
         """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
-        return self._fields.extremes(self.modal_state()[: self.shaft.size], self._state.static)
+        return self._fields.extremes(self.modal_state(), self._state.static)
 
     def modal_state(self) -> Array:
-        """Modal displacements and velocities (p, p') of the vibration now, (2 m,)."""
-        return self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
+        """Modal displacements and velocities (p, p') of the vibration now, (2 m,); not to be changed."""
+        if self._modal is None:
+            self._modal = self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
+        return self._modal
 
     def _motion_in(self, coordinates: Coordinates) -> Array:
         if coordinates.speed == self._state.speed:
@@ -246,7 +249,7 @@ class Rotor:
         allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
         if sizes != allowed:
             raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
-        self._state = state
+        self._state, self._modal = state, None
         coordinates = self._maps.coordinates(state.speed)
         self._journals = journal_motion(coordinates, state.motion, state.static)
 
