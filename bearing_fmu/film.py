@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,7 +20,7 @@ from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import scales
 from bearing_fmu.short_flooded import short_film
 from bearing_fmu.status import FilmFailure, FilmStatus
-from bearing_fmu.tilted_film import tilted_film
+from bearing_fmu.tilted_film import for_this_thread, tilted_film
 
 __all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
 
@@ -80,8 +81,8 @@ class BearingResponse:
 class Film:
     """Prepared evaluator of one bearing; made by `make_film`.
 
-    Holds its work space, so one instance serves one thread at a time.  Nothing else is kept: the
-    same input gives the same output to the last bit, whatever was evaluated before.
+    Nothing is kept but work space, each thread's own: the same input gives the same output to the
+    last bit, whatever was evaluated before.
 
     Attributes
     ----------
@@ -101,19 +102,32 @@ class Film:
             raise ValueError(f"bearing parameter boundary = {parameters.boundary!r} needs depth 'v1'")
         self.depth = depth
         self.parameters = parameters
-        self._kernel: Callable[..., int]
-        self._data: tuple[Any, ...]
         table = slice_table(parameters)
-        common = (scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients)
-        work = np.zeros(WORK)
-        resolution = int(parameters.columns), int(parameters.rows), parameters.diameter / parameters.width
-        match depth:
+        self._constants = scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients
+        self._kernel, self._make = self._solver()
+        self._of_thread = threading.local()
+
+    def _solver(self) -> tuple[Callable[..., int], Callable[[], Any]]:
+        """The kernel of the depth, and what makes its film for the thread that calls."""
+        columns, rows = int(self.parameters.columns), int(self.parameters.rows)
+        aspect = self.parameters.diameter / self.parameters.width
+        match self.depth:
             case Depth.V1:
-                self._kernel, self._data = evaluate_v1, (*common, tilted_film(*resolution), work)
+                tilted = tilted_film(columns, rows, aspect)
+                return evaluate_v1, lambda: for_this_thread(tilted)
             case Depth.V2:
-                self._kernel, self._data = evaluate_v2, (*common, aligned_film(*resolution), work)
+                return evaluate_v2, lambda: aligned_film(columns, rows, aspect)
             case Depth.V3:
-                self._kernel, self._data = evaluate_v3, (*common, short_film(int(parameters.columns)), work)
+                return evaluate_v3, lambda: short_film(columns)
+
+    @property
+    def _data(self) -> tuple[Any, ...]:
+        """What the kernel takes besides the port's arrays, with work space of this thread."""
+        try:
+            data: tuple[Any, ...] = self._of_thread.data
+        except AttributeError:
+            data = self._of_thread.data = (*self._constants, self._make(), np.zeros(WORK))
+        return data
 
     def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
         """Evaluate the port.

@@ -96,7 +96,7 @@ class FieldMap:
         self._last: tuple[Array, Equilibrium[np.float64], _Instant] | None = None
 
     def fields(self, state: Array, static: Equilibrium[np.float64]) -> NodeFields:
-        """All fields of a modal state (p, p'), (2 m,), about a static equilibrium; neither changes in place."""
+        """All fields of a modal state (p, p'), (2 m,), about an equilibrium; neither changes in place."""
         now = self._instant(state, static)
         return NodeFields(
             x=static.shape[0::4] + now.x,
