@@ -8,6 +8,14 @@ L = [K C] of all bearings, the law leaves one linear solve in 4 n_b wrench compo
     (1 + L S) w1 = F0 - L y_free
 
 Wrenches are counted from those of the static equilibrium about which the shaft vibrates.
+
+A linear hold is the most accurate one, and bears a stiffness k against the mass m that rides on it up
+to k H^2 / m = 12 (Newmark's method with beta = 1/6, the linear acceleration).  The mean of both ends,
+held through the step (beta = 1/4), bears any.  A mixture with a share c of the mean bears
+k H^2 / m < 12 / (1 - c) (Hughes 1987, The Finite Element Method, section 9.1).  Films stay far below;
+a journal pressed into its shell does not.  So each bearing gets the share that keeps it at half
+of what it would bear: c = 1 - 1/s where the stiffness number s = k H^2 / (6 m) is above 1.
+The mixture is linear in time again, each end moved towards the other by c / 2 of their distance.
 """
 
 from __future__ import annotations
@@ -17,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from rotor_fmu.condensation import Equilibrium
-from rotor_fmu.coordinates import Coordinates, Maps
+from rotor_fmu.coordinates import Compliance, Coordinates, Maps
 
 Array = NDArray[np.float64]
 
@@ -46,15 +54,26 @@ class AffineStep:
         self._square = self._matrix.reshape(loads, loads)
         self._diagonal = self._square.reshape(-1)[:: loads + 1]
         self._reaction = np.zeros((bearings, 4, 1))
+        self._nearer: Array | None = None  # c / 2 of each wrench component in the last step, None for 0
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
         self._law[:, :, :4] = K
         self._law[:, :, 4:] = C
 
-    def wrench(self, F0: Array, journals: Array, static: Equilibrium[np.float64]) -> Array:
-        """Wrenches of the law last set, counted from those of the static equilibrium, (4 n_b,)."""
-        return F0.reshape(-1) - static.wrench - self._react(journals)
+    def held(
+        self, F0: Array, start: Array, end: Array, static: Equilibrium[np.float64]
+    ) -> tuple[Array, Array]:
+        """Wrenches between which the last step ran, from journals at both ends, (4 n_b,) each.
+
+        Counted from those of the static equilibrium.
+        """
+        offset = F0.reshape(-1) - static.wrench
+        w0, w1 = (offset - self._react(journals) for journals in (start, end))
+        if self._nearer is None:
+            return w0, w1
+        nearer = self._nearer * (w1 - w0)
+        return w0 + nearer, w1 - nearer
 
     def advance(
         self,
@@ -97,22 +116,41 @@ class AffineStep:
             If the law has no solution at the end of the step, or numbers are not finite.
         """
         offset = F0.reshape(-1) - static.wrench
-        end = maps.coast(motion, offset - self._react(journals), rotation)
+        start = offset - self._react(journals)
+        nearer = self._nearer = self._share(maps.compliance)
+        if nearer is None:
+            end = maps.coast(motion, start, rotation)
+            compliance = maps.compliance.end
+        else:
+            end = maps.coast(motion, start - nearer * start, rotation)
+            maps.add_end(nearer * start, end)
+            compliance = maps.compliance.end + nearer * (maps.compliance.start - maps.compliance.end)
         if kick is not None:
             end += kick
         wrench = offset - self._react(journal_motion(coordinates, end, static))
-        np.matmul(self._law, maps.compliance, out=self._matrix)
+        np.matmul(self._law, compliance, out=self._matrix)
         self._diagonal += 1.0
         # The matrix is stored by rows, LAPACK reads columns: factor the transpose, solve transposed.
         factor, pivots, info = lapack.dgetrf(self._square.T, overwrite_a=1)
         if info == 0:
             wrench, info = lapack.dgetrs(factor, pivots, wrench, trans=1)
-        maps.add_end(wrench, end)
+        if nearer is None:
+            maps.add_end(wrench, end)
+        else:
+            maps.add_start(nearer * wrench, end)
+            maps.add_end(wrench - nearer * wrench, end)
         if info != 0 or not np.isfinite(np.dot(end, end)):
             raise StepFailure(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
         return end
+
+    def _share(self, compliance: Compliance) -> Array | None:
+        """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
+        numbers = compliance.stiffness_numbers(self._law[:, :, :4])
+        if not numbers.max(initial=0.0) > 1.0:
+            return None
+        return np.repeat(0.5 - 0.5 / np.maximum(numbers, 1.0), 4)
 
     def _react(self, journals: Array) -> Array:
         """L y: what stiffness and damping take off F0."""

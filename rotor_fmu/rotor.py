@@ -202,10 +202,10 @@ class Rotor:
         )
         work = state.work
         if self._ledger is not None:
-            w0 = self._stepper.wrench(F0, journals, state.static)
-            w1 = self._stepper.wrench(F0, journal_motion(coordinates, end, state.static), state.static)
+            after = journal_motion(coordinates, end, state.static)
+            held = self._stepper.held(F0, journals, after, state.static)
             turn = (angle, speed)
-            done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), (w0, w1), state.static)
+            done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), held, state.static)
             work = Work(*(a + b for a, b in zip(work, done, strict=True)))
         turned = math.fmod(angle + speed * H, 2.0 * math.pi)
         self.set_state(RotorState(end, turned, state.static, coordinates.speed, work))

@@ -20,6 +20,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from rotor_fmu.coordinates import Compliance
 from rotor_fmu.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
@@ -35,17 +36,21 @@ class StepMaps:
         End state from (x0, w0, cos and sin of each harmonic input at the start) with w1 = 0.
     wrench_end : ndarray, (2 m, 4 n_b)
         End state from the wrenches w1 at the end.
-    compliance : ndarray, (n_b, 8, 4 n_b)
-        S: journal displacements and velocities at the end from w1.
+    compliance : Compliance
+        Journal displacements and velocities at the end from w0 and w1.
     """
 
     free: Array
     wrench_end: Array
-    compliance: Array
+    compliance: Compliance
 
     def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
         """(p, p') at the end if the wrenches end with the step."""
         return np.asarray(self.free @ np.concatenate([motion, wrench, rotation]))
+
+    def add_start(self, wrench: Array, motion: Array) -> None:
+        """Add what the wrenches at the start do."""
+        motion += self.free[:, len(motion) : len(motion) + len(wrench)] @ wrench
 
     def add_end(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the end do."""
@@ -128,8 +133,10 @@ def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> 
     end = np.ascontiguousarray(state[:, 2 * m + loads : 2 * m + 2 * loads])
     free = np.hstack([state[:, : 2 * m + loads], state[:, 2 * m + 2 * loads :]])
     free[:, 2 * m : 2 * m + loads] -= end
-    compliance = journal_output(shaft) @ end
-    return StepMaps(free, end, compliance.reshape(shaft.bearings, 8, loads))
+    output = journal_output(shaft)
+    start = free[:, 2 * m : 2 * m + loads]
+    of_start, of_end = ((output @ part).reshape(-1, 8, loads) for part in (start, end))
+    return StepMaps(free, end, Compliance(of_start, of_end))
 
 
 def augmented_matrix(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
+from rotor_fmu.coordinates import Compliance
 from rotor_fmu.hold import harmonic_hold, linear_hold
 from rotor_fmu.modal_shaft import ModalShaft
 from rotor_fmu.whirl_plane import WhirlPlane, whirl_plane
@@ -40,15 +41,15 @@ class WhirlMaps:
         Motion at the end from the wrenches at the start and the rotation.
     end : ndarray of complex, (2 k, 2 n_b)
         From the wrenches at the end.
-    compliance : ndarray, (n_b, 8, 4 n_b)
-        Journals at the end from the wrenches there.
+    compliance : Compliance
+        Journals at the end from the wrenches.
     """
 
     block: Complex
     growth: Complex
     start: Complex
     end: Complex
-    compliance: Array
+    compliance: Compliance
 
     def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
         """Motion at the end if the wrenches end with the step."""
@@ -57,6 +58,11 @@ class WhirlMaps:
         after[:slow] += self.block @ before[:slow]
         after[slow:] += self.growth * before[slow:]
         return after.view(np.float64)
+
+    def add_start(self, wrench: Array, motion: Array) -> None:
+        """Add what the wrenches at the start do."""
+        pairs = wrench.view(np.complex128)
+        motion += (self.start[:, : len(pairs)] @ pairs).view(np.float64)
 
     def add_end(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the end do."""
@@ -133,7 +139,8 @@ class WhirlCoordinates:
         turned = np.stack([ahead + back, 1j * (ahead - back)], axis=2).reshape(len(pull) - slow, -1)
         start = np.vstack([start, np.hstack([falling[:, None] * load[slow:], turned])])
         end = np.vstack([end, rising[:, None] * load[slow:]])
-        return WhirlMaps(block, np.exp(self._rates * step), start, end, _as_real(self._journals @ end))
+        of_start, of_end = (_as_real(self._journals @ part[:, : end.shape[1]]) for part in (start, end))
+        return WhirlMaps(block, np.exp(self._rates * step), start, end, Compliance(of_start, of_end))
 
     def _block_maps(self, step: float, load: Complex, pull: Complex) -> tuple[Complex, Complex, Complex]:
         """Block, start and end of the coupled motions by one exponential (Van Loan 1978)."""

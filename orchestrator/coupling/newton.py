@@ -3,7 +3,7 @@
 The rotor integrates the affine law itself, so that one repetition is one Newton step on the
 interface equation with the rotor's own response: no response has to be identified.  The
 first pass is the linear-implicit step.  The wrench at the start stays that of the accepted
-state; see `secant_law`.  What is left of the error is the rotor's linear hold of the wrench.
+state; see `secant_law`.  What is left of the error is how the rotor lets the wrench run within the step.
 """
 
 from __future__ import annotations

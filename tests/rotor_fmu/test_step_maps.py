@@ -90,8 +90,10 @@ def test_compliance_is_the_journals_answer_to_the_wrench_at_the_end():
     m = shaft.size
     for bearing in range(2):
         rows = shaft.bearing[4 * bearing : 4 * bearing + 4]
-        np.testing.assert_allclose(maps.compliance[bearing, :4], rows @ maps.wrench_end[:m], rtol=1e-13)
-        np.testing.assert_allclose(maps.compliance[bearing, 4:], rows @ maps.wrench_end[m:], rtol=1e-13)
+        np.testing.assert_allclose(maps.compliance.end[bearing, :4], rows @ maps.wrench_end[:m], rtol=1e-13)
+        np.testing.assert_allclose(maps.compliance.end[bearing, 4:], rows @ maps.wrench_end[m:], rtol=1e-13)
+        own = maps.compliance.end[bearing, :4, 4 * bearing : 4 * bearing + 4]
+        np.testing.assert_array_equal(maps.compliance.own[bearing], own.T)
 
 
 def test_a_step_is_two_half_steps():

@@ -40,7 +40,9 @@ def test_steps_are_those_of_the_real_maps(shaft, speed):
         maps = coordinates.maps(speed, STEP, harmonic)
         motion = maps.coast(coordinates.from_modal(state), w0, rotation)
         maps.add_end(w1, motion)
-        return coordinates.to_modal(motion), coordinates.journals(motion), maps.compliance
+        maps.add_start(w1 - w0, motion)
+        moved = maps.compliance
+        return coordinates.to_modal(motion), coordinates.journals(motion), moved.start, moved.end, moved.own
 
     for found, expected in zip(end(whirl), end(modal), strict=True):
         np.testing.assert_allclose(found, expected, rtol=0, atol=2e-13 * np.abs(expected).max())
