@@ -25,7 +25,7 @@ OWN_STEPS: dict[str, dict[str, tuple[float, ...]]] = {
 iterates, but for iqn-ils, which halves its steps for many minutes [s]."""
 
 CONTROLLED = {
-    "linear-implicit": (1.2e-3, (0.2, 0.1, 0.05, 0.03, 0.02, 0.01)),
+    "linear-implicit": (1.2e-3, (0.2, 0.1, 0.05, 0.03, 0.025, 0.02, 0.01)),
     "newton": (4e-4, (1e-2, 1e-3)),
 }
 """Steps under control: longest macro step [s], and largest relative defects."""

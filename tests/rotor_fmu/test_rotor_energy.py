@@ -44,7 +44,7 @@ def test_energy_gained_is_the_work_done(fracture_time, stiffer):
     K *= stiffer
     rotor.start_from_law(F0, K, C, orbit=True)
     before = sum(rotor.energy())
-    run(rotor, (F0 + 3.0, K, C), 0.05, 8)
+    run(rotor, (F0 + 3.0 * stiffer, K, C), 0.05, 8)
     assert (rotor._stepper._nearer is None) == (stiffer == 1.0)
     gained, explained = balance(rotor, before)
     works = rotor.work()
