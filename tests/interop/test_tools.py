@@ -75,11 +75,15 @@ def test_force_only_for_the_record(tool, exported, small, tmp_path, record_prope
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("event", "step"), [({}, 1e-4), ({"time": 0.02003}, 5e-5)], ids=["calm", "fracture"])
-def test_turbine_train(event, step, turbine_fmus, tmp_path, record_property):
-    """The first 50 ms of the reference scenario; with the fracture moved into them, half the step.
+@pytest.mark.parametrize(
+    ("event", "step", "late"),
+    [({}, 1e-4, 0.01), ({"time": 0.02003}, 1e-4, 0.04), ({"time": 0.02003}, 5e-5, 0.01)],
+    ids=["calm", "fracture", "fracture, half the step"],
+)
+def test_turbine_train(event, step, late, turbine_fmus, tmp_path, record_property):
+    """The first 50 ms of the reference scenario, also with the fracture and solid contact moved into them.
 
-    In solid contact units that step all at once lose their footing at 1e-4 s.
+    Units that step all at once, each a step late, are allowed `late`.
     """
     scenario = load_scenario("paper", {"end": 0.05, "event": event} if event else {"end": 1.05})
     ssp, _ = export(scenario, turbine_fmus, tmp_path / "turbine.ssp", "turbine")
@@ -88,7 +92,7 @@ def test_turbine_train(event, step, turbine_fmus, tmp_path, record_property):
         found = forces(tool, ssp, step, 0.05, tmp_path / "forces.npz")
         error = relative_error(tool, found, *expected, step=step)
         record_property(f"rms_error_{tool}", error)
-        assert error < 0.01, tool
+        assert error < (late if LAG[tool] else 0.01), tool
 
 
 @pytest.fixture(scope="module")
