@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from orchestrator.scenario_file import with_overrides
-
 if TYPE_CHECKING:
     from orchestrator.scenario import Scenario
     from orchestrator.summary import RunSummary
@@ -85,12 +83,14 @@ class Certificate:
 
 def at_half_step(scenario: Scenario) -> Scenario:
     """The same scenario at half the step, recorded at the same instants; a tolerance falls to a quarter."""
-    changes: dict[str, Any] = {"step": scenario.step / 2.0}
+    stride = max(1, round(scenario.record.interval / scenario.step))
+    changes: dict[str, Any] = {
+        "step": scenario.step / 2.0,
+        "record": scenario.record.model_copy(update={"interval": stride * scenario.step}),
+    }
     if scenario.tolerance is not None:
         changes["tolerance"] = scenario.tolerance / SECOND_ORDER
-    stride = max(1, round(scenario.record.interval / scenario.step))
-    changes["record"] = {"interval": stride * scenario.step}
-    return with_overrides(scenario, changes)
+    return scenario.model_copy(update=changes)
 
 
 def certify(summary: RunSummary, half: RunSummary) -> Certificate:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,7 +29,7 @@ from orchestrator.result_folder import (
 )
 from orchestrator.scenario_file import load_scenario, train_of, with_overrides
 from orchestrator.scenario_problems import record_size
-from orchestrator.simulate import Execution, Result, default_threads, simulate
+from orchestrator.simulate import Execution, Progress, Result, default_threads, simulate
 from orchestrator.summary import summarise
 from orchestrator.summary_table import SummaryTable
 from orchestrator.trust import own_bearings, require_trust
@@ -115,8 +115,6 @@ def run(request: RunRequest, console: Console, errors: Console) -> int:
     if request.source.endswith(".ssp"):
         if request.checkpoint is not None:
             raise OrchestratorError("--checkpoint: a run of an SSP cannot be resumed")
-        if request.certify:
-            raise OrchestratorError("--certify: a run of an SSP has no certificate; run the scenario instead")
         from orchestrator.ssp.run_command import run_ssp
 
         return run_ssp(request, console, errors)
@@ -149,6 +147,9 @@ def carry_out_request(
     def finish(result: Result, half: Result | None = None) -> int:
         return conclude(result, scenario, train, request, folder, console, errors, half)
 
+    def run_scenario(what: Scenario, progress: Progress, execution: Execution) -> Result:
+        return simulate(what, request.fmus, progress, execution)
+
     def warn(text: str) -> None:
         errors.print(f"[yellow]warning:[/yellow] {text}", highlight=False, soft_wrap=True)
 
@@ -163,22 +164,27 @@ def carry_out_request(
             show_progress(scenario.end, console) as show,
             interrupt_between_steps(show) as progress,
         ):
-            result = simulate(
-                scenario, request.fmus, progress, Execution(saving, saved, threads, watchdog)
-            )
-        certified = request.certify and result.outcome.ok
-        half = _at_half_step(scenario, request, console, threads) if certified else None
+            result = run_scenario(scenario, progress, Execution(saving, saved, threads, watchdog))
+        half = None
+        if request.certify and result.outcome.ok:
+            half = at_half_the_step(scenario, run_scenario, console, threads)
         status = finish(result, half)
         if status == 0 and request.checkpoint is not None:
             discard(folder)
     return status
 
 
-def _at_half_step(scenario: Scenario, request: RunRequest, console: Console, threads: int) -> Result:
+def at_half_the_step(
+    scenario: Scenario,
+    carry_out: Callable[[Scenario, Progress, Execution], Result],
+    console: Console,
+    threads: int,
+) -> Result:
+    """Carry out a run once more at half the step, for its certificate."""
     console.print("Certificate: the same run at half the step", highlight=False)
     finer = at_half_step(scenario)
     with show_progress(finer.end, console) as show, interrupt_between_steps(show) as progress:
-        return simulate(finer, request.fmus, progress, Execution(threads=threads))
+        return carry_out(finer, progress, Execution(threads=threads))
 
 
 def check_bearing(request: RunRequest, train: Train) -> None:

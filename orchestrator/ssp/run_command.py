@@ -11,7 +11,7 @@ from orchestrator.claim import claim
 from orchestrator.interrupt import interrupt_between_steps
 from orchestrator.progress import show_progress
 from orchestrator.result_folder import check_folder, check_room
-from orchestrator.run_command import check_bearing, conclude
+from orchestrator.run_command import at_half_the_step, check_bearing, conclude
 from orchestrator.scenario_problems import record_size
 from orchestrator.simulate import Execution, Result, default_threads
 from orchestrator.ssp.simulate import SspRun
@@ -22,7 +22,7 @@ from orchestrator.watchdog import Watchdog, leave
 if TYPE_CHECKING:
     from orchestrator.run_command import RunRequest
 
-_ALLOWED = ("end", "step", "coupling", "tolerance")
+_ALLOWED = ("end", "step", "coupling", "tolerance", "ledger")
 
 
 def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
@@ -31,7 +31,7 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
     Parameters
     ----------
     request : RunRequest
-        Of its overrides end, step, coupling and tolerance are allowed.
+        Of its overrides end, step, coupling, tolerance and ledger are allowed.
     console, errors : rich.console.Console
         For output and for what went wrong.
 
@@ -50,18 +50,19 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
             option = key.replace("_", "-")
             raise SspError(
                 f"{request.source}: --{option} is for scenarios; an SSP holds its FMUs and parameters, "
-                "allowed are --end, --step, --coupling, --tol"
+                "allowed are --end, --step, --coupling, --tol, --ledger"
             )
     path = Path(request.source)
     folder = request.out or Path("results") / path.stem
     check_folder(folder)
-    with claim(folder) as release, SspRun(path, request.overrides) as prepared:
+    overrides = {**request.overrides, "ledger": True} if request.certify else request.overrides
+    with claim(folder) as release, SspRun(path, overrides) as prepared:
         check_bearing(request, prepared.train)
         check_room(folder, record_size(prepared.scenario, prepared.train))
         require_trust(prepared.fmus, request.fmus, trust=request.trust)
 
-        def finish(result: Result) -> int:
-            return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors)
+        def finish(result: Result, half: Result | None = None) -> int:
+            return conclude(result, prepared.scenario, prepared.train, request, folder, console, errors, half)
 
         def give_up(hung: Result) -> None:
             leave(lambda: finish(hung), release, console.show_cursor)
@@ -72,5 +73,9 @@ def run_ssp(request: RunRequest, console: Console, errors: Console) -> int:
             interrupt_between_steps(show) as progress,
         ):
             threads = request.threads or default_threads(prepared.scenario, prepared.train)
-            result = prepared.simulate(progress, Execution(threads=threads, watchdog=watchdog))
-        return finish(result)
+            execution = Execution(threads=threads, watchdog=watchdog)
+            result = prepared.simulate(prepared.scenario, progress, execution)
+        half = None
+        if request.certify and result.outcome.ok:
+            half = at_half_the_step(prepared.scenario, prepared.simulate, console, threads)
+        return finish(result, half)

@@ -43,8 +43,8 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     contents : Contents
         The SSP; where its parameters say more than a scenario can, they count and not this.
     overrides : mapping
-        Values of ``end``, ``step``, ``coupling`` and ``tolerance`` in place of those of the SSP, as in
-        `orchestrator.scenario_file.load_scenario`.
+        Values of ``end``, ``step``, ``coupling``, ``tolerance`` and ``ledger`` in place of those of the SSP,
+        as in `orchestrator.scenario_file.load_scenario`.
     path : Path
         The archive.
 
@@ -89,6 +89,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "step": overrides.get("step") or structure.step or DEFAULT_STEP,
         "coupling": coupling,
         "tolerance": replaced(own, overrides).get("tolerance"),
+        "ledger": bool(overrides.get("ledger", False)),
         "film": film,
         "record": {} if structure.record_interval is None else {"interval": structure.record_interval},
         "analysed_bearing": structure.analysed_bearing,

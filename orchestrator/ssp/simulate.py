@@ -67,8 +67,20 @@ class SspRun:
             for c in self._contents.structure.components
         }
 
-    def simulate(self, progress: Progress | None = None, execution: Execution | None = None) -> Result:
+    def simulate(
+        self,
+        scenario: Scenario | None = None,
+        progress: Progress | None = None,
+        execution: Execution | None = None,
+    ) -> Result:
         """Run it from its start parameters; no equilibrium is sought.
+
+        Parameters
+        ----------
+        scenario : Scenario, optional
+            In place of `scenario`, with another step or tolerance.
+        progress, execution
+            As in `orchestrator.simulate.simulate`.
 
         Raises
         ------
@@ -77,13 +89,14 @@ class SspRun:
         """
         announce = progress or (lambda _stage, _time: None)
         execution = execution or Execution()
-        execution.watchdog.partial = partial(failed_start, self.scenario, self.train, Outcome.UNIT_HUNG)
+        scenario = scenario or self.scenario
+        execution.watchdog.partial = partial(failed_start, scenario, self.train, Outcome.UNIT_HUNG)
         execution.watchdog.leftovers += [self._store.remove, self._folder.cleanup]
         announce(Stage.LOAD, 0.0)
-        system = _assemble(self._contents, self.scenario, self.path, execution.threads)
+        system = _assemble(self._contents, scenario, self.path, execution.threads)
         try:
             result = carry_out(
-                self.scenario,
+                scenario,
                 self.train,
                 system,
                 lambda: _start(self._contents),
@@ -120,6 +133,8 @@ def _assemble(contents: Contents, scenario: Scenario, path: Path, threads: int) 
         system.bearing_group.employ(threads)
         for unit, component in zip(units, components, strict=True):
             unit.set_parameters(parameters(component, unit.file, path))
+        if scenario.ledger:
+            units[0].set_parameters({"track_work": True})
         system.set_speed(float(value_of(contents, contents.rotor, "speed")))
         for unit in units:
             unit.enter_initialization(0.0, scenario.end)

@@ -1,5 +1,7 @@
 """SSP on the command line: out of a scenario, and back into a run."""
 
+import json
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -40,6 +42,18 @@ def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, tmp_path):
     assert back.attrs["ssp"].startswith("short.ssp sha256 ")
 
 
+def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, tmp_path):
+    options = ("--no-figures", "--fmus", exported / "fmus", "--trust", "--certify")
+    certified = []
+    for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
+        done = call("run", exported / source, *options, "--out", tmp_path / out)
+        assert done.exit_code == 0, done.output
+        summary = json.loads((tmp_path / out / "summary.json").read_text())
+        certified.append((summary["certificate"], summary["ledger"]))
+    assert certified[0][0]["differences"] and certified[0][1]["unbalance"] > 0.0
+    assert certified[0] == certified[1]
+
+
 @pytest.mark.parametrize(
     "arguments, words",
     [
@@ -47,9 +61,10 @@ def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, tmp_path):
         (("export-ssp", "shorter.toml"), ("no such scenario",)),
         (("run", "short.ssp", "--depth", "v2"), ("--depth is for scenarios", "--end, --step, --coupling")),
         (("run", "short.ssp", "--bearing", "raer", "--trust"), ("raer", "front, rear")),
+        (("run", "short.ssp", "--checkpoint", "0.1"), ("--checkpoint", "SSP cannot be resumed")),
         (("run", "none.ssp"), ("none.ssp", "no such file")),
     ],
-    ids=["suffix", "no scenario", "foreign option", "no bearing", "no file"],
+    ids=["suffix", "no scenario", "foreign option", "no bearing", "no resuming", "no file"],
 )
 def test_what_is_wrong_is_said_and_nothing_written(arguments, words, exported, monkeypatch):
     monkeypatch.chdir(exported)
