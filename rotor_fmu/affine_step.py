@@ -14,7 +14,8 @@ to k H^2 / m = 12 (Newmark's method with beta = 1/6, the linear acceleration).  
 held through the step (beta = 1/4), bears any.  A mixture with a share c of the mean bears
 k H^2 / m < 12 / (1 - c) (Hughes 1987, The Finite Element Method, section 9.1).  Films stay far below;
 a journal pressed into its shell does not.  So each bearing gets the share that keeps it at half
-of what it would bear: c = 1 - 1/s where the stiffness number s = k H^2 / (6 m) is above 1.
+of what it would bear: c = 1 - 1/s where the stiffness number s, k H^2 / (6 m) of a mass on a spring
+(`rotor_fmu.coordinates.Compliance.stiffness_numbers`), is above 1.
 The mixture is linear in time again, each end moved towards the other by c / 2 of their distance.
 """
 
@@ -28,10 +29,6 @@ from rotor_fmu.condensation import Equilibrium
 from rotor_fmu.coordinates import Compliance, Coordinates, Maps
 
 Array = NDArray[np.float64]
-
-HARMONICS = 2
-"""Harmonic inputs of a step: the nominal unbalance and the lost blade's."""
-
 
 class StepFailure(ArithmeticError):
     """The step has no finite result; the state before it stands."""
@@ -148,7 +145,7 @@ class AffineStep:
     def _share(self, compliance: Compliance) -> Array | None:
         """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
         numbers = compliance.stiffness_numbers(self._law[:, :, :4])
-        if not numbers.max(initial=0.0) > 1.0:
+        if numbers is None or not numbers.max(initial=0.0) > 1.0:
             return None
         return np.repeat(0.5 - 0.5 / np.maximum(numbers, 1.0), 4)
 

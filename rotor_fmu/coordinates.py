@@ -19,25 +19,47 @@ class Compliance:
     ----------
     start, end : ndarray, (n_b, 8, 4 n_b)
         From wrenches that fall linearly to 0 at the end, and that rise linearly from 0 at the start.
+    mixed : ndarray, (4 n_b, 4 n_b)
+        Of `end` the displacements alone.
     own : ndarray, (n_b, 4, 4)
-        Of `end`, the displacement of each journal by its own wrench, transposed.
+        Of those, of each journal by its own wrench, transposed.
     """
 
     start: Array
     end: Array
+    mixed: Array = field(init=False)
     own: Array = field(init=False)
 
     def __post_init__(self) -> None:
         each = np.arange(len(self.end))
-        blocks = self.end.reshape(len(each), 8, len(each), 4)[each, :4, each]
-        object.__setattr__(self, "own", blocks.transpose(0, 2, 1).copy())
+        mixed = self.end[:, :4]
+        own = mixed.reshape(len(each), 4, len(each), 4)[each, :, each]
+        object.__setattr__(self, "mixed", np.ascontiguousarray(mixed.reshape(4 * len(each), -1)))
+        object.__setattr__(self, "own", own.transpose(0, 2, 1).copy())
 
-    def stiffness_numbers(self, K: Array) -> Array:
-        """Of each journal on its bearing K, (n_b, 4, 4), the sum of k H^2 / (6 m) over its directions.
+    def stiffness_numbers(self, K: Array) -> Array | None:
+        """How far the bearings K, (n_b, 4, 4), are from the stiffness that a linear wrench bears.
 
-        The trace of K S: for a mass m on a spring k a force that rises to f moves it by f H^2 / (6 m).
+        For one mass m on a spring k it is k H^2 / (6 m) = k S, since a force that rises to f moves it by
+        S f = f H^2 / (6 m).  Of many: with g_ij^2 = tr(K_i S_ij K_j S_ji) the sum over j of
+        g_ij sqrt(g_ii / g_jj), which by Gershgorin's theorem for blocks (Feingold and Varga 1962, Pacific
+        J. Math. 12, 1241-1250) bounds the eigenvalues of K S for symmetric K; scaled so that a stiff
+        bearing does not make its soft neighbours stiff.
+
+        Returns
+        -------
+        ndarray, (n_b,) or None
+            None where a cruder bound, g_ij^2 <= tr(K_i S_ii) tr(K_j S_jj), shows that none is above 1.
         """
-        return np.asarray(np.einsum("bij,bij->b", K, self.own))
+        alone = np.sqrt(np.abs(np.einsum("bij,bij->b", K, self.own)))
+        if not alone.max(initial=0.0) * alone.sum() > 1.0:
+            return None
+        count = len(K)
+        product = np.matmul(K, self.mixed.reshape(count, 4, -1)).reshape(4 * count, -1)
+        squares = (product * product.T).reshape(count, 4, count, 4).sum(axis=(1, 3))
+        sizes = np.sqrt(np.abs(squares))
+        own = np.maximum(sizes.diagonal(), np.finfo(np.float64).tiny)
+        return np.asarray(own * (sizes / np.sqrt(np.outer(own, own))).sum(axis=1))
 
 
 class Maps(Protocol):

@@ -34,9 +34,9 @@ def test_energies_are_those_of_the_unreduced_displacements():
     assert energy.gravity == pytest.approx(-GRAVITY * model.gravity @ q, rel=1e-10)
 
 
-@pytest.mark.parametrize("stiffer", [1.0, 3e3], ids=["film", "contact"])
+@pytest.mark.parametrize(("stiffer", "rounding"), [(1.0, 1e-11), (3e3, 1e-10)], ids=["film", "contact"])
 @pytest.mark.parametrize("fracture_time", [math.inf, 0.113, 0.1])
-def test_energy_gained_is_the_work_done(fracture_time, stiffer):
+def test_energy_gained_is_the_work_done(fracture_time, stiffer, rounding):
     """Not in equilibrium, in unsymmetric bearings, across a fracture; in contact the mean is held, too."""
     excitation = unbalance([0.02, 0.01], [0.3, -1.0], [0.5, 0.2], [2.0, -0.6], fracture_time)
     rotor = small_rotor(gravity=GRAVITY, excitation=excitation, track_work=True)
@@ -49,7 +49,7 @@ def test_energy_gained_is_the_work_done(fracture_time, stiffer):
     gained, explained = balance(rotor, before)
     works = rotor.work()
     assert min(abs(w) for w in works) > 1e-6
-    assert gained == pytest.approx(explained, abs=1e-11 * max(abs(w) for w in works))
+    assert gained == pytest.approx(explained, abs=rounding * max(abs(w) for w in works))
 
 
 def test_works_of_an_oscillator_by_quadrature_of_its_closed_form():

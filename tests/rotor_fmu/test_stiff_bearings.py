@@ -65,13 +65,49 @@ def test_one_stiff_bearing_leaves_the_hold_of_the_other_alone():
     law = np.concatenate([K, C], axis=2)
     w0, w1 = (F0 - np.einsum("bij,bj->bi", law, y) for y in (before, rotor.kinematics()))
     maps = rotor._maps.step(SPEED, step)
-    number = np.trace(K[0] @ maps.compliance.end[0, :4, :4])
-    assert number > 2.0 > np.trace(K[1] @ maps.compliance.end[1, :4, 4:]) + 1.0
+    number, soft = maps.compliance.stiffness_numbers(K)
+    assert number > 2.0 > 1.0 > soft
     nearer = np.array([[0.5 - 0.5 / number], [0.0]]) * (w1 - w0)
     static = state.static.wrench
     entry = np.concatenate([state.motion, (w0 + nearer).ravel() - static, [1.0, 0.0, 0.0, 0.0]])
     expected = maps.free @ entry + maps.wrench_end @ ((w1 - nearer).ravel() - static)
     np.testing.assert_allclose(rotor.modal_state(), expected, rtol=0, atol=1e-11 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("number", [0.1, 0.3, 0.9, 3.0, 1e3])
+@pytest.mark.parametrize("bearings", [2, 3, 11])
+def test_swings_on_springs_that_share_a_mass_do_not_grow(bearings, number):
+    """Each spring alone may be soft enough for a linear wrench; all together, two of them unlike, are not."""
+    eye, none = np.eye(4), np.zeros((4, 4))
+    matrices = unreduced(MASS * eye, none, none, none, bearings=(0,) * bearings)
+    rotor = matrix_rotor(*matrices, unbalance([0.0], [0.0]), gravity=0.0, speed=1.0)
+    F0, K, C = no_law(bearings)
+    K[:] = 6.0 * MASS * number / H**2 * np.diag([1.0, 1e-9, 1e-9, 1e-9])
+    K[0] *= 7.0
+    rotor.start_from_law(F0, K, C, orbit=False)
+    F0[:, 0] = K[:, 0, 0]
+    swing = []
+    for step in range(3000):
+        rotor.step(step * H, H, F0, K, C, 1.0)
+        swing.append(abs(rotor.kinematics()[0, 0] - 1.0))
+    assert 0.9 < max(swing[-1000:]) and max(swing) < 1.02
+    total = 6.0 * number + bearings * number
+    assert total < 1.0 or rotor._stepper._nearer is not None
+
+
+def test_stiffness_numbers_bound_the_eigenvalues():
+    """Of K S, for symmetric K: of random shafts and bearings, scaled by what each bearing may have."""
+    rotor, rng = small_rotor(), np.random.default_rng(3)
+    compliance = rotor._maps.step(SPEED, 0.02).compliance
+    for _ in range(50):
+        root = rng.normal(size=(2, 4, 4)) * 10.0 ** rng.uniform(1.5, 3.5, size=(2, 1, 1))
+        K = root @ root.transpose(0, 2, 1)
+        numbers = compliance.stiffness_numbers(K)
+        product = (K @ compliance.mixed.reshape(2, 4, 8)).reshape(8, 8)
+        if numbers is None:
+            numbers = np.ones(2)
+        borne = np.repeat(np.minimum(1.0, 1.0 / numbers), 4)[:, None] * product
+        assert np.abs(np.linalg.eigvals(borne)).max() <= 1.0 + 1e-6
 
 
 def test_stiff_bearings_keep_the_second_order():
