@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -20,7 +19,7 @@ from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import scales
 from bearing_fmu.short_flooded import short_film
 from bearing_fmu.status import FilmFailure, FilmStatus
-from bearing_fmu.tilted_film import for_this_thread, tilted_film
+from bearing_fmu.tilted_film import WorkSpace, stock, tilted_film, work_space
 
 __all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
 
@@ -36,6 +35,13 @@ class Depth(StrEnum):
     """Reynolds equation, tilts and tilt rates ignored."""
     V3 = "v3"
     """Short bearing, tilts and tilt rates ignored."""
+
+
+_KERNELS: dict[Depth, Callable[..., int]] = {
+    Depth.V1: evaluate_v1,
+    Depth.V2: evaluate_v2,
+    Depth.V3: evaluate_v3,
+}
 
 
 @dataclass(frozen=True)
@@ -81,8 +87,8 @@ class BearingResponse:
 class Film:
     """Prepared evaluator of one bearing; made by `make_film`.
 
-    Nothing is kept but work space, each thread's own: the same input gives the same output to the
-    last bit, whatever was evaluated before.
+    Nothing is kept but work space, which no two evaluations use at a time: the same input gives the same
+    output to the last bit, whatever was evaluated before and on whatever thread.
 
     Attributes
     ----------
@@ -104,30 +110,41 @@ class Film:
         self.parameters = parameters
         table = slice_table(parameters)
         self._constants = scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients
-        self._kernel, self._make = self._solver()
-        self._of_thread = threading.local()
-
-    def _solver(self) -> tuple[Callable[..., int], Callable[[], Any]]:
-        """The kernel of the depth, and what makes its film for the thread that calls."""
-        columns, rows = int(self.parameters.columns), int(self.parameters.rows)
-        aspect = self.parameters.diameter / self.parameters.width
-        match self.depth:
-            case Depth.V1:
-                tilted = tilted_film(columns, rows, aspect)
-                return evaluate_v1, lambda: for_this_thread(tilted)
-            case Depth.V2:
-                return evaluate_v2, lambda: aligned_film(columns, rows, aspect)
-            case Depth.V3:
-                return evaluate_v3, lambda: short_film(columns)
+        self._kernel = _KERNELS[depth]
+        # Of one resolution V1 shares its work space with other films, see `bearing_fmu.tilted_film`.
+        self._stock = stock(*self._resolution) if depth is Depth.V1 else []
+        self._bound: dict[WorkSpace, tuple[Any, ...]] = {}
 
     @property
-    def _data(self) -> tuple[Any, ...]:
-        """What the kernel takes besides the port's arrays, with work space of this thread."""
+    def _resolution(self) -> tuple[int, int]:
+        return int(self.parameters.columns), int(self.parameters.rows)
+
+    def _data(self, space: WorkSpace) -> tuple[Any, ...]:
+        """What the kernel takes besides the port's arrays, in a work space."""
+        if space not in self._bound:
+            aspect = self.parameters.diameter / self.parameters.width
+            film: Any
+            match self.depth:
+                case Depth.V1:
+                    film = tilted_film(*self._resolution, aspect, space)
+                case Depth.V2:
+                    film = aligned_film(*self._resolution, aspect)
+                case Depth.V3:
+                    film = short_film(self._resolution[0])
+            self._bound[space] = *self._constants, film, np.zeros(WORK)
+        return self._bound[space]
+
+    def take(self) -> tuple[WorkSpace, tuple[Any, ...]]:
+        """A work space that nobody uses, to be brought back, and what the kernel takes in it."""
         try:
-            data: tuple[Any, ...] = self._of_thread.data
-        except AttributeError:
-            data = self._of_thread.data = (*self._constants, self._make(), np.zeros(WORK))
-        return data
+            space = self._stock.pop()
+        except IndexError:
+            space = work_space(*self._resolution) if self.depth is Depth.V1 else WorkSpace()
+        return space, self._data(space)
+
+    def bring_back(self, space: WorkSpace) -> None:
+        """Let others use a work space."""
+        self._stock.append(space)
 
     def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
         """Evaluate the port.
@@ -146,7 +163,11 @@ class Film:
         int
             0, or another code of `FilmStatus`.
         """
-        return self._kernel(inputs, offset, out, *self._data)
+        space, data = self.take()
+        try:
+            return self._kernel(inputs, offset, out, *data)
+        finally:
+            self.bring_back(space)
 
     def failure(self, status: int, inputs: Floats, offset: Floats) -> FilmFailure:
         """Return the error that belongs to a failed `evaluate`: status, advice and the relative state."""

@@ -1,12 +1,11 @@
 """Work space and layout of the film between a tilted journal and its bore.
 
-Nothing in the work space outlives an evaluation, so that films of one resolution share it on each
-thread: it stays in the processor's nearest memory, whatever the number of bearings.
+Nothing in the work space outlives an evaluation.  So films of one resolution take it from a common stock,
+which stays in the processor's nearest memory, whatever the number of bearings.
 """
 
 from __future__ import annotations
 
-import threading
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +27,7 @@ WRENCH, STIFFNESS, DAMPING, PEAK, SHEAR, RESULTS = 0, 4, 20, 36, 37, 38
 
 
 class TiltedFilm(NamedTuple):
-    """Everything prepared once for one bearing, basis and uniform circle, and the work space of a thread.
+    """Everything prepared once for one bearing, basis and uniform circle, and work space.
 
     n rows and m columns; n' and m' are padded to whole vectors.  A *pressure* is a stack of n rows
     of nodal values, n rows of their differences to the next column, and n + 2 rows of axial slopes.
@@ -41,13 +40,13 @@ class TiltedFilm(NamedTuple):
     products: Floats  #: ((n + 2) n n',) their outer products
     fine: Floats  #: (4 n, n) basis between the nodes
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
+    held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     # from here on work space
     rings: Floats  #: (2, RING_ROWS, m) columns and faces on the graded grid
     grading: Floats  #: (6, 4) map parameter, its derivative, work space
     column: Floats  #: (FIELDS, n + 2, m') at the columns
     face: Floats  #: (FIELDS, n, m') between the columns
     nodal: Floats  #: (4, n, m') bearing part of the pressure and its derivatives
-    held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     pressures: Floats  #: (5, 3 n + 2, m') the pressure and four adjoint ones
     forcing: Floats  #: (6, 3 n + 2, m') tangent of the residual and what it is made of
     blocks: Floats  #: (3, m n n') factor
@@ -57,8 +56,47 @@ class TiltedFilm(NamedTuple):
     row: Floats  #: (8 n',) work space
 
 
-def tilted_film(columns: int, rows: int, aspect: float) -> TiltedFilm:
-    """Prepare a film of `columns` x `rows` with 2R/b = `aspect` for the thread that calls."""
+class WorkSpace:
+    """What one evaluation at a time may use."""
+
+    def __init__(self, arrays: dict[str, Floats] | None = None) -> None:
+        self.arrays = arrays or {}
+
+
+_stocks: dict[tuple[int, int], list[WorkSpace]] = {}
+
+
+def stock(columns: int, rows: int) -> list[WorkSpace]:
+    """Work spaces of `columns` x `rows` that nobody uses, the last one used last.
+
+    Take one by ``pop`` and bring it back by ``append``, which no other thread interrupts.
+    """
+    return _stocks.setdefault((columns, rows), [])
+
+
+def work_space(columns: int, rows: int) -> WorkSpace:
+    """A new work space."""
+    width, length = padded(rows), padded(columns)
+    return WorkSpace(
+        {
+            "rings": np.zeros((2, RING_ROWS, columns)),
+            "grading": np.zeros((6, 4)),
+            "column": np.zeros((FIELDS, rows + 2, length)),
+            "face": np.zeros((FIELDS, rows, length)),
+            "nodal": np.zeros((4, rows, length)),
+            "pressures": np.zeros((5, 3 * rows + 2, length)),
+            "forcing": np.zeros((6, 3 * rows + 2, length)),
+            "blocks": np.zeros((3, columns * rows * width)),
+            "coupling": np.zeros(columns * width),
+            "sides": np.zeros(4 * columns * width),
+            "block": np.zeros(rows * width),
+            "row": np.zeros(8 * width),
+        }
+    )
+
+
+def tilted_film(columns: int, rows: int, aspect: float, space: WorkSpace) -> TiltedFilm:
+    """Prepare a film of `columns` x `rows` with 2R/b = `aspect` in a work space."""
     basis = axial_basis(rows)
     width = padded(rows)
     products = np.zeros((rows + 2, rows, width))
@@ -73,45 +111,6 @@ def tilted_film(columns: int, rows: int, aspect: float) -> TiltedFilm:
         products=products.ravel(),
         fine=basis.interpolation(basis.place(np.linspace(-1.0, 1.0, 4 * rows + 2)[1:-1])),
         circle=circle,
-        **_work_space(columns, rows),
+        held=np.zeros((rows, padded(columns))),
+        **space.arrays,
     )
-
-
-def for_this_thread(film: TiltedFilm) -> TiltedFilm:
-    """The film with the work space of the thread that calls."""
-    return film._replace(**_work_space(film.circle.shape[2], len(film.nodes) - 2))
-
-
-class _WorkSpaces(threading.local):
-    """Work spaces of a thread by columns and rows; they end with it."""
-
-    def __init__(self) -> None:
-        self.found: dict[tuple[int, int], dict[str, Floats]] = {}
-
-
-_spaces = _WorkSpaces()
-
-
-def _work_space(columns: int, rows: int) -> dict[str, Floats]:
-    if (columns, rows) not in _spaces.found:
-        _spaces.found[columns, rows] = _new_work_space(columns, rows)
-    return _spaces.found[columns, rows]
-
-
-def _new_work_space(columns: int, rows: int) -> dict[str, Floats]:
-    width, length = padded(rows), padded(columns)
-    return {
-        "rings": np.zeros((2, RING_ROWS, columns)),
-        "grading": np.zeros((6, 4)),
-        "column": np.zeros((FIELDS, rows + 2, length)),
-        "face": np.zeros((FIELDS, rows, length)),
-        "nodal": np.zeros((4, rows, length)),
-        "held": np.zeros((rows, length)),
-        "pressures": np.zeros((5, 3 * rows + 2, length)),
-        "forcing": np.zeros((6, 3 * rows + 2, length)),
-        "blocks": np.zeros((3, columns * rows * width)),
-        "coupling": np.zeros(columns * width),
-        "sides": np.zeros(4 * columns * width),
-        "block": np.zeros(rows * width),
-        "row": np.zeros(8 * width),
-    }

@@ -286,6 +286,8 @@ class UnitSlave(Fmi2Slave):
         self.strings.update(zip(self.strings, strings, strict=True))
         if state.prepared:
             self._prepare_if_changed()
+        else:
+            self._prepared_for = None
         if state.model is not None:
             self.restore_model(state.model)
         self._mode, self._unsolved, self.start_time = state.mode, state.unsolved, state.start_time

@@ -10,7 +10,7 @@ _HEADER = struct.Struct("<16sBBBBIIId")
 
 
 class UnitState(NamedTuple):
-    """What a unit's state holds; taken at every step that may be taken back, so that nothing is packed yet.
+    """What a unit's state holds; taken at every step that may be taken back, so the model is not packed yet.
 
     Attributes
     ----------

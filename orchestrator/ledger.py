@@ -6,9 +6,10 @@ displacement d over the step of length H and its velocities v0, v1, ::
 
     work = (w0 + w1) d / 2 + (w1 - w0) (v1 - v0) H / 12
 
-which is exact for a wrench linear and a motion cubic in time.  (Where a journal is pressed into its
-shell, the rotor holds part of the wrench at its mean, see `rotor_fmu.affine_step`; the last term is less
-then, by some 1e-5 of the work exchanged in the bundled scenario.)  The film's work includes solid contact,
+which is exact for a wrench linear and a motion cubic in time.  Where a journal is pressed into its shell
+the rotor holds part of the wrench at its mean (`rotor_fmu.affine_step`), and the last term is smaller by
+that share, which the rotor does not tell: received work and residue of such a bearing are estimates, and
+the whole shaft's account below is exact.  The film's work includes solid contact,
 shown besides.  The residue is what the rotor received beyond what the films gave: energy that the
 coupling created, or lost where it is negative.
 

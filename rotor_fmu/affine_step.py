@@ -9,14 +9,16 @@ L = [K C] of all bearings, the law leaves one linear solve in 4 n_b wrench compo
 
 Wrenches are counted from those of the static equilibrium about which the shaft vibrates.
 
-A linear hold is the most accurate one, and bears a stiffness k against the mass m that rides on it up
+A linear hold is the most accurate one, and bears a stiffness k against a mass m that rides on it up
 to k H^2 / m = 12 (Newmark's method with beta = 1/6, the linear acceleration).  The mean of both ends,
-held through the step (beta = 1/4), bears any.  A mixture with a share c of the mean bears
-k H^2 / m < 12 / (1 - c) (Hughes 1987, The Finite Element Method, section 9.1).  Films stay far below;
-a journal pressed into its shell does not.  So each bearing gets the share that keeps it at half
-of what it would bear: c = 1 - 1/s where the stiffness number s, k H^2 / (6 m) of a mass on a spring
-(`rotor_fmu.coordinates.Compliance.stiffness_numbers`), is above 1.
+held through the step (beta = 1/4), bears any: the work of a spring, -k (x1^2 - x0^2) / 2, then is exact.
+A mixture with a share c of the mean bears k H^2 / m < 12 / (1 - c) (Hughes 1987, The Finite Element
+Method, section 9.1).  Films stay far below; a journal pressed into its shell does not.  So each bearing
+gets the share that keeps it at half of what it would bear: c = 1 - 1/s where the stiffness number s,
+k H^2 / (6 m) of a mass on a spring (`rotor_fmu.coordinates.Compliance.stiffness_numbers`), is above 1.
 The mixture is linear in time again, each end moved towards the other by c / 2 of their distance.
+On a shaft that vibrates elastically within the step, or with dampers as stiff, there is no such proof:
+steps several times as long as 2 sqrt(3 m / k) may still be upset, and the defect tells.
 """
 
 from __future__ import annotations

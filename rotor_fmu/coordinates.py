@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+def fingerprint(*bases: NDArray[Any]) -> bytes:
+    """Sixteen bytes that differ where any number of the bases does."""
+    digest = hashlib.sha256()
+    for basis in bases:
+        digest.update(np.ascontiguousarray(basis).tobytes())
+    return digest.digest()[:16]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +104,10 @@ class Coordinates(Protocol):
     @property
     def speed(self) -> float | None:
         """The speed [rad/s] to which they belong; None for modal displacements and velocities (p, p')."""
+
+    @property
+    def basis(self) -> bytes:
+        """Fingerprint of what the numbers count; eigenvectors differ from processor to processor."""
 
     def from_modal(self, state: Array) -> Array:
         """Of (p, p')."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,14 +45,15 @@ class Rotor:
     fracture_time : float
         Instant of the fracture [s].
     track_work : bool
-        Keep account of the works, at two to three times the cost of a step and some seconds for the
+        Keep account of the works, at some seven times the cost of a step and some seconds for the
         first step of each size (minutes for the unreduced shaft).
 
     Notes
     -----
     The speed is constant within a step.  When it changes from step to step the angle
     of rotation goes on without a jump and the force of the unbalance is U speed^2; the
-    tangential force of an angular acceleration is left out.
+    tangential force of an angular acceleration is left out.  The modes are found anew at each new
+    speed, which takes a thousand times as long as a step.
     """
 
     _state: RotorState
@@ -175,9 +177,9 @@ class Rotor:
         Raises
         ------
         StepFailure
-            If the step has no finite result; the state before it stands.
+            If the step has no finite result, as under a law that is not finite; the state before it stands.
         ValueError
-            If H is not positive and finite, or a value of the law or the speed is not finite.
+            If H is not positive and finite, or the speed is not finite.
         """
         if not (math.isfinite(H) and H > 0.0 and math.isfinite(speed)):
             raise ValueError(f"rotor: step H = {H} s at {speed} rad/s; allowed are H > 0 and finite numbers")
@@ -208,7 +210,7 @@ class Rotor:
             done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), held, state.static)
             work = Work(*(a + b for a, b in zip(work, done, strict=True)))
         turned = math.fmod(angle + speed * H, 2.0 * math.pi)
-        self.set_state(RotorState(end, turned, state.static, coordinates.speed, work))
+        self.set_state(RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work))
 
     def energy(self) -> Energy:
         """Kinetic energy of the vibration, strain energy and potential in gravity now [J]."""
@@ -249,8 +251,15 @@ class Rotor:
         allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
         if sizes != allowed:
             raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
-        self._state, self._modal = state, None
         coordinates = self._maps.coordinates(state.speed)
+        if not state.basis:
+            state = replace(state, basis=coordinates.basis)
+        elif state.basis != coordinates.basis:
+            raise ValueError(
+                "rotor: the state was saved by another build or kind of processor, on which the modes of the "
+                "shaft come out in other vectors; go on there, or start anew"
+            )
+        self._state, self._modal = state, None
         self._journals = journal_motion(coordinates, state.motion, state.static)
 
     def _angle_at(self, time: float) -> float:

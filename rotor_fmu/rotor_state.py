@@ -14,7 +14,7 @@ from rotor_fmu.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3q5d")
+_HEADER = struct.Struct("<8s3q5d16s")
 _MAGIC = b"rotor\0\0\3"  # the last byte is the version of the layout
 
 
@@ -32,6 +32,8 @@ class RotorState:
         The static equilibrium: n displacements, 4 n_b journal displacements and wrenches.
     speed : float or None
         To which the coordinates of the motion belong [rad/s]; None for modal ones.
+    basis : bytes
+        Their fingerprint, 16 bytes; empty for those of the rotor at hand.
     work : Work
         Done since the start, if the rotor keeps account of it.
     """
@@ -40,6 +42,7 @@ class RotorState:
     angle: float
     static: Equilibrium[np.float64]
     speed: float | None = None
+    basis: bytes = b""
     work: Work = field(default_factory=Work)
 
     def to_bytes(self) -> bytes:
@@ -47,7 +50,7 @@ class RotorState:
         static = self.static
         sizes = (len(self.motion), len(static.shape), len(static.wrench))
         speed = math.nan if self.speed is None else self.speed
-        header = _HEADER.pack(_MAGIC, *sizes, self.angle, speed, *self.work)
+        header = _HEADER.pack(_MAGIC, *sizes, self.angle, speed, *self.work, self.basis)
         arrays = (self.motion, static.shape, static.journals, static.wrench)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
@@ -62,11 +65,11 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, angle, speed, *work = _HEADER.unpack_from(data)
+        _, states, displacements, loads, angle, speed, *work, basis = _HEADER.unpack_from(data)
         sizes = (states, displacements, loads, loads)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
         numbers = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
         motion, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
         static = Equilibrium(shape, journals, wrench)
-        return cls(motion, angle, static, None if math.isnan(speed) else speed, Work(*work))
+        return cls(motion, angle, static, None if math.isnan(speed) else speed, basis, Work(*work))

@@ -20,7 +20,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from rotor_fmu.coordinates import Compliance
+from rotor_fmu.coordinates import Compliance, fingerprint
 from rotor_fmu.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
@@ -70,6 +70,7 @@ class ModalCoordinates:
 
     def __init__(self, shaft: ModalShaft) -> None:
         self._shaft, self._output = shaft, journal_output(shaft)
+        self.basis = fingerprint(shaft.T)
 
     def from_modal(self, state: Array) -> Array:
         """The same."""

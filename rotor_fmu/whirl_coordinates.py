@@ -1,6 +1,7 @@
 """The whirl of a circular shaft at constant speed, decoupled.
 
-In the complex plane (`rotor_fmu.whirl_plane`) the shaft is z' = A z + B w with z = (omega r, r').
+In the complex plane (`rotor_fmu.whirl_plane`) the shaft is z' = A z + B w with z = (omega r, r'),
+rigid-body motions times the least elastic frequency.
 Its elastic modes are nearly orthogonal: they decouple, and a step of any length multiplies each by
 its own exponential.  The rigid-body motions do not, since a body that drifts has a defective
 eigenvalue; they stay together in a small block.  Schur form with that block first, which a
@@ -15,7 +16,7 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
-from rotor_fmu.coordinates import Compliance
+from rotor_fmu.coordinates import Compliance, fingerprint
 from rotor_fmu.hold import harmonic_hold, linear_hold
 from rotor_fmu.modal_shaft import ModalShaft
 from rotor_fmu.whirl_plane import WhirlPlane, whirl_plane
@@ -24,7 +25,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _CONDITION = 1e5
-"""Condition number, in the maximum norm, up to which modes count as decoupled; digits are lost with it."""
+"""Condition number, in the row-sum norm, up to which modes count as decoupled; digits are lost with it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +70,10 @@ class WhirlMaps:
         motion += (self.end @ wrench.view(np.complex128)).view(np.float64)
 
 
+class NotDecoupledError(ValueError):
+    """The elastic modes are too near to one another in shape."""
+
+
 class WhirlCoordinates:
     """Coordinates of a circular shaft at one speed, see `rotor_fmu.coordinates.Coordinates`.
 
@@ -83,7 +88,7 @@ class WhirlCoordinates:
 
     Raises
     ------
-    ValueError
+    NotDecoupledError
         If elastic modes do not decouple, as at critical damping.
     """
 
@@ -102,10 +107,11 @@ class WhirlCoordinates:
         self._block, self._rates, modes = _decoupled(A, least / 2.0)
         inverse = np.linalg.inv(modes)
         if not np.linalg.norm(modes, np.inf) * np.linalg.norm(inverse, np.inf) <= _CONDITION:
-            raise ValueError(f"whirl at {speed} rad/s: the elastic modes do not decouple")
+            raise NotDecoupledError(f"whirl at {speed} rad/s: the elastic modes do not decouple")
         self._to_state, self._from_state = modes, inverse
         self._to_state[:k] /= scale[:, None]
         self._from_state[:, :k] *= scale
+        self.basis = fingerprint(plane.journal, self._to_state)
         rows = np.stack([plane.journal @ modes[:k], plane.journal @ modes[k:]])
         # Of each bearing x + i y, tilt_x + i tilt_y, then their rates: the port's order.
         self._journals = np.ascontiguousarray(rows.reshape(2, -1, 2, 2 * k).transpose(1, 0, 2, 3))
@@ -126,7 +132,9 @@ class WhirlCoordinates:
         return (self._journals @ motion.view(np.complex128)).view(np.float64)
 
     def maps(self, speed: float, step: float, harmonic: Array) -> WhirlMaps:
-        """Maps over a step at the speed of the coordinates."""
+        """Maps over a step; ValueError at another speed than that of the coordinates."""
+        if speed != self.speed:
+            raise ValueError(f"whirl coordinates of {self.speed} rad/s cannot step at {speed} rad/s")
         k, slow = len(self._plane.omega), len(self._block)
         load = self._from_state[:, k:] @ self._plane.load
         pull = self._from_state[:, k:] @ self._plane.harmonic(harmonic)
@@ -164,7 +172,7 @@ def whirl_coordinates(shaft: ModalShaft, speed: float) -> WhirlCoordinates | Non
         return None
     try:
         return WhirlCoordinates(plane, speed)
-    except (ValueError, np.linalg.LinAlgError):
+    except (NotDecoupledError, np.linalg.LinAlgError):
         return None
 
 

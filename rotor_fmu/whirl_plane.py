@@ -1,7 +1,7 @@
 """Both bending planes of a circular shaft as one complex plane.
 
 With r = x + i y the gyroscopic coupling of the planes is a factor -i, and the shaft is complex
-linear in the modal coordinates r and the loads: half the numbers of the two planes.  Loads and
+linear in the modal coordinates r and the loads: full matrices have half the numbers.  Loads and
 journals keep the port's order, read as pairs: Fx + i Fy and Mx + i My, x + i y and tilt_x + i tilt_y.
 A slope is tilt_y - i tilt_x = -i (tilt_x + i tilt_y), and a moment about it My - i Mx likewise.
 """

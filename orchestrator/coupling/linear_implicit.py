@@ -7,7 +7,8 @@ no rollback.  Second order.  A rotor that lets the wrench run linearly through t
 for any damping, and for a stiffness k against the mass m that rides on it up to
 ``sqrt(k/m) H = 2 sqrt(3)`` (linear acceleration method).  Films stay far below it; a journal
 pressed into its shell reaches it at 1e-4 s.  The rotor of this project then holds part of the
-wrench at its mean (`rotor_fmu.affine_step`), which is stable for any stiffness.
+wrench at its mean (`rotor_fmu.affine_step`), which a mass on a spring of any stiffness bears; on the
+turbine train the error then grows smoothly with the step up to 4e-4 s, where before forces alternated.
 """
 
 from __future__ import annotations

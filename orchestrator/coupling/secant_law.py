@@ -1,6 +1,6 @@
 """Affine laws through both ends of a step.
 
-A rotor that holds the wrench linear over the step takes its start value from the law, too:
+A rotor that lets the wrench run between the ends of the step takes its start value from the law, too:
 ``w0 = F0 - K q0 - C v0``.  A law re-linearised at the end of the step would miss the true
 wrench at the start by the curvature of the film.  So the tangent at the end is changed as
 little as possible that the law meets the wrench at the start: the update of rank one of

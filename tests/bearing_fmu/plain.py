@@ -57,7 +57,7 @@ def main(states: Path, out: Path) -> None:
     np.seterr(all="ignore")  # as compiled: what is not finite is found at the end
     for case in json.loads(states.read_text()):
         film = make_film(case["depth"], BearingParameters(**case["parameters"]))
-        constants, *rest = film._data
+        _, (constants, *rest) = film.take()
         outputs = np.full(52, np.nan)
         status = film._kernel(
             np.array(case["inputs"]), np.zeros(4), outputs, constants.view(np.recarray), *rest

@@ -102,7 +102,18 @@ class Instance:
 
     def state(self) -> bytes:
         """The FMU state, serialised."""
-        handle = self.slave.getFMUstate()
+        return self.serialise(self.keep())
+
+    def keep(self) -> c_void_p:
+        """The FMU state, as it is until somebody asks for bytes; give it back with `serialise`."""
+        return self.slave.getFMUstate()
+
+    def go_back(self, handle: c_void_p) -> None:
+        """Return to a kept state, which stays valid."""
+        self.slave.setFMUstate(handle)
+
+    def serialise(self, handle: c_void_p) -> bytes:
+        """The bytes of a kept state, which is freed."""
         try:
             return self.slave.serializeFMUstate(handle)
         finally:

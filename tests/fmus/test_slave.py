@@ -156,6 +156,26 @@ def test_steps_repeat_to_the_bit_from_a_state(spring):
     assert trajectory(spring, 20, 20) == first
 
 
+def test_a_kept_state_does_not_change_with_the_unit(spring):
+    spring.start()
+    trajectory(spring, 0, 20)
+    kept, state = spring.keep(), spring.state()
+    first = trajectory(spring, 20, 20)
+    for _ in range(2):
+        spring.go_back(kept)
+        assert trajectory(spring, 20, 20) == first
+    assert spring.serialise(kept) == state
+
+
+def test_a_state_of_a_unit_that_never_started_leaves_no_model_behind(spring):
+    spring.start({"stiffness": -1.0})
+    failed = spring.state()
+    spring.slave.reset()
+    spring.start()
+    spring.restore(failed)
+    assert spring.state() == failed
+
+
 def test_a_state_moves_to_another_instance_with_parameters_strings_and_mode(spring, spring_host):
     spring.start({"springs": 2, "label": "first"})
     trajectory(spring, 0, 5)

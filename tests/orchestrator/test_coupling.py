@@ -47,7 +47,7 @@ def test_explicit_couplings_are_of_first_order(store, toy_fmus, scheme):
 
 @pytest.mark.parametrize("name", SCHEMES)
 def test_a_stiff_bearing_upsets_explicit_couplings_only(store, toy_fmus, name):
-    """At omega H = 2.8; the rotor's linear hold of the wrench itself is stable up to 2 sqrt(3)."""
+    """At omega H = 2.8; this rotor lets the wrench run linearly, which is stable up to 2 sqrt(3)."""
     stiff = {"stiffness": 8e8, "damping": 1e6}
     scheme = SCHEMES[name]
     system = released(store, toy_fmus, scheme.wiring, **stiff)

@@ -91,3 +91,26 @@ def test_coupled_coordinates_of_both_planes_are_allowed():
     fields = rotor.fields()
     np.testing.assert_allclose(fields.x, (static + dynamic)[0::4], rtol=0, atol=1e-13)
     np.testing.assert_allclose(fields.amplitude, np.hypot(dynamic[0::4], dynamic[1::4]), rtol=0, atol=1e-13)
+
+
+def test_fields_are_those_of_the_present_instant():
+    """Asked before and after a step and on the way back, as of a rotor that was never asked before."""
+    law = linear_bearings()
+
+    def answers(rotor):
+        return np.concatenate([*vars(rotor.fields()).values(), rotor.extremes(), rotor.energy()])
+
+    def fresh(steps):
+        rotor = small_rotor(gravity=GRAVITY)
+        rotor.start_from_law(*law, orbit=True)
+        return run(rotor, (law[0] + 3.0, *law[1:]), 0.05, steps)
+
+    rotor = fresh(0)
+    kept, first = rotor.get_state(), answers(rotor)
+    run(rotor, (law[0] + 3.0, *law[1:]), 0.05, 4)
+    second = answers(rotor)
+    rotor.set_state(kept)
+    assert not np.array_equal(first, second)
+    assert np.array_equal(first, answers(rotor))
+    assert np.array_equal(first, answers(fresh(0)))
+    assert np.array_equal(second, answers(fresh(4)))

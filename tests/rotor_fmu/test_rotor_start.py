@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from small_shafts import linear_bearings, no_law, run, small_rotor
@@ -209,6 +211,21 @@ def test_bytes_that_are_not_a_state_are_refused(spoil):
 def test_a_state_of_another_shaft_is_refused(train):
     with pytest.raises(ValueError, match="allowed are"):
         Rotor(train).set_state(small_rotor().get_state())
+
+
+@pytest.mark.parametrize("stepped", [False, True], ids=["modal", "whirl"])
+def test_a_state_in_other_eigenvectors_is_refused(train, stepped):
+    """As another kind of processor finds them: the numbers would mean another motion."""
+    rotor = Rotor(train)
+    if stepped:
+        rotor.step(0.0, 1e-4, np.zeros((2, 4)), np.zeros((2, 4, 4)), np.zeros((2, 4, 4)), train.speed)
+    state = RotorState.from_bytes(rotor.get_state().to_bytes())
+    assert (state.speed is not None) == stepped
+    rotor.set_state(state)
+    kept = rotor.kinematics()
+    with pytest.raises(ValueError, match="kind of processor"):
+        rotor.set_state(replace(state, basis=bytes(16)))
+    assert np.array_equal(rotor.kinematics(), kept)
 
 
 def test_rotors_of_one_train_share_the_shaft_but_nothing_that_changes(train):
