@@ -40,6 +40,16 @@ def test_speed_reaches_every_unit(store, toy_fmus):
     system.close()
 
 
+@pytest.mark.parametrize("load", [10.0, 1e5])
+def test_a_relative_defect_is_the_largest_against_its_scale(store, toy_fmus, load):
+    system = released(store, toy_fmus, stiffness=3e6)
+    system.set_scale(load, [0.7, 1.3])
+    for defect in np.random.default_rng(1).normal(size=(20, 2, 4)):
+        assert system.relative(defect) == pytest.approx(np.max(np.abs(defect) / system.scale()), rel=1e-15)
+    assert np.isnan(system.relative(np.array([[1.0, np.nan, 0.0, 0.0], [0.0] * 4])))
+    system.close()
+
+
 def test_a_unit_without_the_port_is_described(store, toy_fmus):
     spring = store.open(toy_fmus / "spring_damper.fmu")
     units = [Unit(spring, "rotor"), Unit(spring, "front")]
