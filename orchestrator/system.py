@@ -127,17 +127,19 @@ class System:
 
     def scale(self) -> Array:
         """Return what wrenches are measured by now (bearings, 4): the load, or the force where larger."""
-        force = np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
+        force = self._force_scale()
         moment = force * self._levers
         return np.stack([force, force, moment, moment], axis=1)
 
     def relative(self, defect: Array) -> float:
         """Return the largest component of a defect against `scale`."""
-        # As scale() has it, which takes three times as long; this is asked at every step.
-        force = np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
+        # Without making the array of scales, which takes three times as long; this is asked at every step.
         largest = np.abs(defect).reshape(-1, 2, 2).max(axis=2)
         largest[:, 1] /= self._levers
-        return float((largest.max(axis=1) / force).max())
+        return float((largest.max(axis=1) / self._force_scale()).max())
+
+    def _force_scale(self) -> Array:
+        return np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
 
     def set_speed(self, speed: float) -> None:
         """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""

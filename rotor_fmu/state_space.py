@@ -160,7 +160,7 @@ def augmented_matrix(shaft: ModalShaft, speed: float, step: float, harmonic: Arr
     inputs = np.hstack([shaft.bearing.T, np.zeros((m, loads)), harmonic])
     drift = np.zeros((inputs.shape[1],) * 2)
     drift[:loads, loads : 2 * loads] = np.eye(loads) / step
-    drift[2 * loads :, 2 * loads :] = _rotation_rate(harmonic.shape[1], speed)
+    drift[2 * loads :, 2 * loads :] = rotation_rate(harmonic.shape[1], speed)
     return _scaled(shaft, speed, inputs, drift)
 
 
@@ -187,6 +187,6 @@ def _unscaled(exponential: Array, scale: Array) -> Array:
     return state
 
 
-def _rotation_rate(columns: int, speed: float) -> Array:
+def rotation_rate(columns: int, speed: float) -> Array:
     """Rate matrix of (cos theta, sin theta), once for each harmonic input."""
     return np.kron(np.eye(columns // 2), np.array([[0.0, -speed], [speed, 0.0]]))

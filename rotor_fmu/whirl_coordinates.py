@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from rotor_fmu.coordinates import Compliance, fingerprint
 from rotor_fmu.hold import harmonic_hold, linear_hold
 from rotor_fmu.modal_shaft import ModalShaft
+from rotor_fmu.state_space import rotation_rate
 from rotor_fmu.whirl_plane import WhirlPlane, whirl_plane
 
 Array = NDArray[np.float64]
@@ -158,8 +159,7 @@ class WhirlCoordinates:
         A[:slow, :slow] = self._block * step
         A[:slow, slow:] = step * np.hstack([load, np.zeros_like(load), pull])
         A[slow : slow + loads, slow + loads : slow + 2 * loads] = np.eye(loads)
-        turn = np.array([[0.0, -self.speed], [self.speed, 0.0]]) * step
-        A[slow + 2 * loads :, slow + 2 * loads :] = np.kron(np.eye(pull.shape[1] // 2), turn)
+        A[slow + 2 * loads :, slow + 2 * loads :] = step * rotation_rate(pull.shape[1], self.speed)
         E = sl.expm(A)[:slow]
         of_start, end = E[:, slow : slow + loads], E[:, slow + loads : slow + 2 * loads]
         return E[:, :slow], np.hstack([of_start - end, E[:, slow + 2 * loads :]]), end
