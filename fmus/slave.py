@@ -30,7 +30,7 @@ from pythonfmu.enums import Fmi2Status
 
 from fmus.failure import UnitError, attempt
 from fmus.layout import Layout
-from fmus.state import UnitState, unpack
+from fmus.state import ModelState, UnitState, unpack
 from fmus.store import Store
 from fmus.variable import Kind
 
@@ -62,6 +62,7 @@ class UnitSlave(Fmi2Slave):
     """
 
     digest: ClassVar[bytes] = bytes(16)  # of the FMU; the entry script sets it
+    model_type: ClassVar[type[ModelState] | None] = None  # of the model's state, where it has one
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -99,22 +100,12 @@ class UnitSlave(Fmi2Slave):
     def observe(self, group: str) -> None:
         """Write the lazy variables of `group` for the present state."""
 
-    def model_state(self) -> Any:
-        """Return what the model holds beyond the values, as something never changed in place."""
+    def model_state(self) -> ModelState | None:
+        """Return what the model holds beyond the values, of the type `model_type`."""
         return None
 
     def restore_model(self, state: Any) -> None:
         """Take back what `model_state` returned; `prepare` has run."""
-
-    @staticmethod
-    def pack_model(state: Any) -> bytes:
-        """Return what `model_state` returned as bytes."""
-        return b""
-
-    @staticmethod
-    def unpack_model(packed: bytes) -> Any:
-        """Return what `pack_model` packed; ValueError if it is damaged."""
-        return None
 
     # -- life cycle ----------------------------------------------------------
 
@@ -279,8 +270,7 @@ class UnitSlave(Fmi2Slave):
 
     def _restore(self, state: UnitState | bytes) -> None:
         if isinstance(state, bytes):
-            state = unpack(state, self.digest, 2 + len(self.strings))
-            state = state._replace(model=self.unpack_model(state.model) if state.model else None)
+            state = unpack(state, self.digest, 2 + len(self.strings), self.model_type)
         self._store.unpack(state.values)
         self._failure, self._misuse, *strings = state.texts
         self.strings.update(zip(self.strings, strings, strict=True))
@@ -295,9 +285,7 @@ class UnitSlave(Fmi2Slave):
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: UnitState | bytes) -> bytes:  # pythonfmu asks the class
-        if isinstance(state, bytes):
-            return state
-        return state.pack(cls.digest, b"" if state.model is None else cls.pack_model(state.model))
+        return state if isinstance(state, bytes) else state.pack(cls.digest)
 
     @staticmethod
     def _fmu_state_from_bytes(state: bytes) -> bytes:

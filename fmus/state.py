@@ -4,9 +4,20 @@ from __future__ import annotations
 
 import json
 import struct
-from typing import Any, NamedTuple
+from typing import NamedTuple, Protocol, Self
 
 _HEADER = struct.Struct("<16sBBBBIIId")
+
+
+class ModelState(Protocol):
+    """What a model holds beyond the values of its unit; never changed in place."""
+
+    def to_bytes(self) -> bytes:
+        """Write without loss."""
+
+    @classmethod
+    def from_bytes(cls, data: bytes, /) -> Self:
+        """Read what `to_bytes` wrote; ValueError if it is damaged."""
 
 
 class UnitState(NamedTuple):
@@ -26,8 +37,8 @@ class UnitState(NamedTuple):
         All numbers, float64 in the order of the value references.
     texts : list of str
         Failure, misuse, then the String variables.
-    model : object
-        State of the model, never changed in place; None where there is none.
+    model : ModelState or None
+        State of the model; None where it has none.
     """
 
     mode: int
@@ -37,10 +48,11 @@ class UnitState(NamedTuple):
     start_time: float
     values: bytes
     texts: list[str]
-    model: Any
+    model: ModelState | None
 
-    def pack(self, digest: bytes, model: bytes) -> bytes:
-        """Return the state as bytes, that of the model given, marked as of the FMU `digest` (16 bytes)."""
+    def pack(self, digest: bytes) -> bytes:
+        """Return the state as bytes, marked as that of the FMU `digest` (16 bytes)."""
+        model = b"" if self.model is None else self.model.to_bytes()
         texts = json.dumps(self.texts).encode() if any(self.texts) else b""
         sizes = len(self.values), len(texts), len(model)
         flags = self.prepared, self.unsolved, self.stale
@@ -48,8 +60,8 @@ class UnitState(NamedTuple):
         return b"".join((header, self.values, texts, model))
 
 
-def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
-    """Read what `UnitState.pack` wrote; the model's state as its bytes.
+def unpack(state: bytes, digest: bytes, texts: int, model: type[ModelState] | None) -> UnitState:
+    """Read what `UnitState.pack` wrote.
 
     Parameters
     ----------
@@ -59,6 +71,8 @@ def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
         Digest of the FMU that reads.
     texts : int
         Number of texts of the unit.
+    model : type or None
+        Of the model's state.
 
     Raises
     ------
@@ -72,6 +86,7 @@ def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
     if len(state) != start + n_values + n_texts + n_model:
         raise ValueError("the FMU state is damaged")
     read = json.loads(state[start + n_values : start + n_values + n_texts]) if n_texts else [""] * texts
+    packed = state[start + n_values + n_texts :]
     return UnitState(
         mode,
         bool(prepared),
@@ -80,5 +95,5 @@ def unpack(state: bytes, digest: bytes, texts: int) -> UnitState:
         time,
         state[start : start + n_values],
         read,
-        state[start + n_values + n_texts :],
+        model.from_bytes(packed) if model is not None and packed else None,
     )

@@ -32,6 +32,8 @@ def _train_and_layout(train_text: str, starts_text: str) -> tuple[Train, Layout]
 class RotorSlave(UnitSlave):
     """The shaft of a train; the train and its start values lie in the FMU's resources."""
 
+    model_type = RotorState
+
     def __init__(self, **kwargs: Any) -> None:
         resources = Path(kwargs["resources"])
         files = (resources / "train.json").read_text(), (resources / "starts.json").read_text()
@@ -135,13 +137,3 @@ class RotorSlave(UnitSlave):
     def restore_model(self, state: RotorState) -> None:
         """Take back the state of the shaft."""
         self._rotor.set_state(state)
-
-    @staticmethod
-    def pack_model(state: RotorState) -> bytes:
-        """Return the state of the shaft as bytes."""
-        return state.to_bytes()
-
-    @staticmethod
-    def unpack_model(packed: bytes) -> RotorState:
-        """Return the state of the shaft."""
-        return RotorState.from_bytes(packed)

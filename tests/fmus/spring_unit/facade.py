@@ -25,8 +25,21 @@ VARIABLES = (
 LAYOUT = Layout(VARIABLES)
 
 
+class Work(float):
+    """The work done so far: a state that is a number."""
+
+    def to_bytes(self):
+        return struct.pack("<d", self)
+
+    @classmethod
+    def from_bytes(cls, data):
+        return cls(*struct.unpack("<d", data))
+
+
 class SpringSlave(UnitSlave):
     """A spring-damper."""
+
+    model_type = Work
 
     def __init__(self, gain: float = 1.0, **kwargs):
         super().__init__(LAYOUT, **kwargs)
@@ -61,15 +74,7 @@ class SpringSlave(UnitSlave):
         self.values[LAYOUT["energy"]] = 0.5 * self.stiffness * self.inputs[0] ** 2
 
     def model_state(self):
-        return self.work if hasattr(self, "work") else 0.0
+        return Work(self.work if hasattr(self, "work") else 0.0)
 
     def restore_model(self, state):
         self.work = state
-
-    @staticmethod
-    def pack_model(state):
-        return struct.pack("<d", state)
-
-    @staticmethod
-    def unpack_model(packed):
-        return struct.unpack("<d", packed)[0]
