@@ -10,15 +10,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.aligned import AlignedFilm, solve_aligned
-from bearing_fmu.compiled import kernel
-from bearing_fmu.contact import CONTACT_RESULTS, add_slice, add_tilted, sliding_sense
+from bearing_fmu.contact.contact import CONTACT_RESULTS, add_slice, add_tilted, sliding_sense
+from bearing_fmu.films.aligned.aligned import AlignedFilm, solve_aligned
+from bearing_fmu.films.short.short import solve_short
+from bearing_fmu.films.tilted.reynolds import solve_pressure
+from bearing_fmu.films.tilted.tangent import add_tangent
+from bearing_fmu.films.tilted.workspace import RESULTS, TiltedFilm
+from bearing_fmu.kernels.compiled import kernel
 from bearing_fmu.outputs import OUTPUTS, STATE, relative_state, write_outputs
-from bearing_fmu.reynolds import solve_pressure
-from bearing_fmu.short import solve_short
 from bearing_fmu.status import NO_SOLUTION, OK
-from bearing_fmu.tangent import add_tangent
-from bearing_fmu.tilted_film import RESULTS, TiltedFilm
 
 Floats = NDArray[np.float64]
 Constants = NDArray[np.void]

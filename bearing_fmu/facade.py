@@ -8,9 +8,9 @@ from typing import Any
 from bearing_fmu.film import Depth, make_film
 from bearing_fmu.parameters import BearingParameters
 from fmus import port
-from fmus.failure import FILM_FAILED, UnitError
-from fmus.layout import Layout
-from fmus.slave import UnitSlave
+from fmus.unit.failure import FILM_FAILED, UnitError
+from fmus.unit.layout import Layout
+from fmus.unit.slave import UnitSlave
 
 LAYOUT = Layout(port.BEARING)
 _PARAMETERS = LAYOUT.block("diameter", "contact.friction")

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.aligned import aligned_film
+from bearing_fmu.contact.greenwood_tripp import slice_table
 from bearing_fmu.evaluate import WORK, evaluate_v1, evaluate_v2, evaluate_v3
-from bearing_fmu.film_state import state_words
-from bearing_fmu.greenwood_tripp import slice_table
+from bearing_fmu.films.aligned.aligned import aligned_film
+from bearing_fmu.films.short.flooded import short_film
+from bearing_fmu.films.tilted.workspace import WorkSpace, stock, tilted_film, work_space
 from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import scales
-from bearing_fmu.short_flooded import short_film
+from bearing_fmu.state_in_words import state_words
 from bearing_fmu.status import FilmFailure, FilmStatus
-from bearing_fmu.tilted_film import WorkSpace, stock, tilted_film, work_space
 
 __all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
 
@@ -111,7 +111,7 @@ class Film:
         table = slice_table(parameters)
         self._constants = scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients
         self._kernel = _KERNELS[depth]
-        # Of one resolution V1 shares its work space with other films, see `bearing_fmu.tilted_film`.
+        # Of one resolution V1 shares its work space with other films, see `films.tilted.workspace`.
         self._stock = stock(*self._resolution) if depth is Depth.V1 else []
         self._bound: dict[WorkSpace, tuple[Any, ...]] = {}
 
@@ -174,9 +174,7 @@ class Film:
         relative = inputs[:8] - inputs[8:16]
         relative[:4] -= offset
         speed = float(inputs[16])
-        words = state_words(
-            self.parameters, relative[:4], relative[4:], speed, tilted=self.depth is Depth.V1
-        )
+        words = state_words(self.parameters, relative[:4], relative[4:], speed, tilted=self.depth is Depth.V1)
         return FilmFailure(FilmStatus(status), np.append(relative, speed), words)
 
     def respond(self, q: Floats, v: Floats, speed: float) -> BearingResponse:

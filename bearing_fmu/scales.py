@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.greenwood_tripp import SliceTable
+from bearing_fmu.contact.greenwood_tripp import SliceTable
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.status import FilmStatus
 

@@ -66,7 +66,7 @@ class FilmFailure(ArithmeticError):
     status, state : FilmStatus, ndarray
         As above.
     words : str
-        The state for people, see `bearing_fmu.film_state`.
+        The state for people, see `bearing_fmu.state_in_words`.
     """
 
     def __init__(self, status: FilmStatus, state: NDArray[np.float64], words: str) -> None:

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from fmus import port
-from fmus.failure import UnitError
-from fmus.layout import Layout
-from fmus.slave import UnitSlave
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.rotor_state import RotorState
-from rotor_fmu.statics import target_loads
-from rotor_fmu.train import Train
+from fmus.unit.failure import UnitError
+from fmus.unit.layout import Layout
+from fmus.unit.slave import UnitSlave
+from rotor_fmu.shaft.statics import target_loads
+from rotor_fmu.train.train import Train
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.state import RotorState
 
 _LAW = len(port.LAW)
 

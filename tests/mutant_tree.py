@@ -164,12 +164,12 @@ def _collect() -> list[tuple[Any, ...]]:
 
 def _stamp() -> str:
     """Digest by which the compiled kernels know their sources."""
-    return str(importlib.import_module("bearing_fmu.compiled")._SOURCES)
+    return str(importlib.import_module("bearing_fmu.kernels.compiled")._SOURCES)
 
 
 def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
     if stamp:  # no kernel changed: take those that are there
-        importlib.import_module("bearing_fmu.compiled")._SOURCES = stamp  # type: ignore[attr-defined]
+        importlib.import_module("bearing_fmu.kernels.compiled")._SOURCES = stamp  # type: ignore[attr-defined]
     outcomes = Outcomes()
     pytest.main(["-x", *tests] if stop else [*tests], plugins=[outcomes])
     return outcomes.passed, outcomes.failed
@@ -178,8 +178,8 @@ def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
 def kernel_modules(root: Path) -> set[str]:
     """Modules with kernels, and those that they take constants from."""
     found = set()
-    for path in (root / "bearing_fmu").glob("*.py"):
-        imported = re.findall(r"^from bearing_fmu\.(\w+) import", path.read_text(), flags=re.MULTILINE)
-        if "compiled" in imported:
-            found |= {path.stem, *imported}
-    return {f"bearing_fmu/{name}.py" for name in found}
+    for path in (root / "bearing_fmu").rglob("*.py"):
+        imported = re.findall(r"^from (bearing_fmu\.[\w.]+) import", path.read_text(), flags=re.MULTILINE)
+        if "bearing_fmu.kernels.compiled" in imported:
+            found |= {path.relative_to(root).as_posix(), *(f"{name.replace('.', '/')}.py" for name in imported)}
+    return found

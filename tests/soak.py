@@ -18,10 +18,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fmus.build import build
+from fmus.build.builder import build
+from orchestrator.case.simulate import Stage, simulate
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Stage, simulate
+from orchestrator.scenario.file import load_scenario, train_of
 
 GROWTH = 4 << 20
 """Bytes by which the memory may grow from the end of the first tenth to that of the last."""

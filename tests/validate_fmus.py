@@ -16,10 +16,10 @@ from zipfile import ZipFile
 from fmpy.ssp.ssd import read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 
-from fmus.build import build
-from orchestrator.scenario_file import load_scenario
+from fmus.build.builder import build
+from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
-from rotor_fmu.train_file import bundled_trains, load_train
+from rotor_fmu.train.file import bundled_trains, load_train
 
 FMUTOOL = "fmu_manipulation_toolbox"
 _CLEAN = ("seems to be compliant", "No semantic error")

@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from fmus import port
-from fmus.variable import Value
+from fmus.port.variable import Value
 from orchestrator.errors import FmuError
-from orchestrator.fmu_file import FmuFile, FmuStore
-from orchestrator.graph import Connection
-from orchestrator.safe_archive import ArchiveError, inside
+from orchestrator.fmi.archive import ArchiveError, inside
+from orchestrator.fmi.file import FmuFile, FmuStore
+from orchestrator.master.graph import Connection
+from orchestrator.master.system import Wiring, port_connections
 from orchestrator.ssp.structure import Component, SspError, Structure
-from orchestrator.system import Wiring, port_connections
-from rotor_fmu.train import Train
-from rotor_fmu.wording import likely
+from rotor_fmu.train.train import Train
+from rotor_fmu.train.wording import likely
 
 _LISTED = 12  # of the connections in a message
 

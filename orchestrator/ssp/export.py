@@ -10,12 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from fmus import port
-from fmus.archive import write_archive
-from fmus.build import bearing_recipe, rotor_recipe, write
-from orchestrator.assembly import assemble
-from orchestrator.equilibrium import Start, find_start
-from orchestrator.fmu_file import FmuFile, FmuStore
-from orchestrator.parameters import (
+from fmus.build.archive import write_archive
+from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from orchestrator.fmi.file import FmuFile, FmuStore
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.assembly import assemble
+from orchestrator.master.start.equilibrium import Start, find_start
+from orchestrator.master.system import System, Wiring, port_connections
+from orchestrator.scenario.file import train_of
+from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
     offset_names,
@@ -23,13 +26,10 @@ from orchestrator.parameters import (
     rotor_parameters,
     start_names,
 )
-from orchestrator.scenario import Scenario, is_fmu
-from orchestrator.scenario_file import train_of
+from orchestrator.scenario.scenario import Scenario, is_fmu
 from orchestrator.ssp.structure import ROTOR, Component, Connector, SspError, Structure
 from orchestrator.ssp.writer import documents
-from orchestrator.system import System, Wiring, port_connections
-from orchestrator.unit import Unit
-from rotor_fmu.train import Train
+from rotor_fmu.train.train import Train
 
 
 def force_only(path: Path) -> Path:
@@ -60,7 +60,7 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
     Raises
     ------
     FmuError, PortError
-        As `orchestrator.assembly.assemble`.
+        As `orchestrator.master.assembly.assemble`.
     EquilibriumError
         When the train finds no equilibrium on its films.
     SspError

@@ -8,10 +8,10 @@ from pathlib import Path
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
-from fmus.variable import Value
-from orchestrator.graph import Connection
-from orchestrator.safe_archive import ArchiveError, extract, inside
-from orchestrator.safe_xml import XmlError, read_xml
+from fmus.port.variable import Value
+from orchestrator.fmi.archive import ArchiveError, extract, inside
+from orchestrator.fmi.xml import XmlError, read_xml
+from orchestrator.master.graph import Connection
 from orchestrator.ssp.structure import Component, Connector, SspError, Structure
 from orchestrator.ssp.writer import DEFINITION, NAMESPACES, OSP, RUN
 

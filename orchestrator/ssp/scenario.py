@@ -9,16 +9,16 @@ from typing import Any
 from pydantic import ValidationError
 
 from fmus import port
-from orchestrator.coupling import SCHEMES
 from orchestrator.errors import ScenarioError
-from orchestrator.fmu_file import FmuFile
-from orchestrator.scenario import DEPTHS, Scenario
-from orchestrator.scenario_file import replaced
-from orchestrator.scenario_problems import shape_problems, time_problems
+from orchestrator.fmi.file import FmuFile
+from orchestrator.master.coupling import SCHEMES
+from orchestrator.master.system import Wiring
+from orchestrator.scenario.file import replaced
+from orchestrator.scenario.problems import shape_problems, time_problems
+from orchestrator.scenario.scenario import DEPTHS, Scenario
 from orchestrator.ssp.contents import Contents, value_of
 from orchestrator.ssp.structure import SspError
-from orchestrator.system import Wiring
-from rotor_fmu.train_checks import film_problems
+from rotor_fmu.train.checks import film_problems
 
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
 
@@ -44,7 +44,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         The SSP; where its parameters say more than a scenario can, they count and not this.
     overrides : mapping
         Values of ``end``, ``step``, ``coupling``, ``tolerance`` and ``ledger`` in place of those of the SSP,
-        as in `orchestrator.scenario_file.load_scenario`.
+        as in `orchestrator.scenario.file.load_scenario`.
     path : Path
         The archive.
 

@@ -11,19 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from orchestrator.equilibrium import Start
+from orchestrator.case.simulate import Execution, Progress, Result, Stage, Stopwatch, carry_out, failed_start
 from orchestrator.errors import FmuError
-from orchestrator.fmu_file import FmuStore
+from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.unit import Unit, UnitError
+from orchestrator.master.start.equilibrium import Start
+from orchestrator.master.system import System
 from orchestrator.outcome import Outcome
-from orchestrator.parameters import offset_names, start_names
-from orchestrator.scenario import Scenario
-from orchestrator.simulate import Execution, Progress, Result, Stage, Stopwatch, carry_out, failed_start
+from orchestrator.scenario.parameters import offset_names, start_names
+from orchestrator.scenario.scenario import Scenario
 from orchestrator.ssp.contents import Contents, parameters, understand, value_of
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.scenario import as_scenario
-from orchestrator.system import System
-from orchestrator.unit import Unit, UnitError
-from rotor_fmu.train import Train
+from rotor_fmu.train.train import Train
 
 
 class SspRun:
@@ -80,7 +80,7 @@ class SspRun:
         scenario : Scenario, optional
             In place of `scenario`, with another step or tolerance.
         progress, execution
-            As in `orchestrator.simulate.simulate`.
+            As in `orchestrator.case.simulate.simulate`.
 
         Raises
         ------

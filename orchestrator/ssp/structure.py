@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from fmus.variable import Value
+from fmus.port.variable import Value
 from orchestrator.errors import OrchestratorError
-from orchestrator.graph import Connection
+from orchestrator.master.graph import Connection
 
 ROTOR = "rotor"
 """Name of the rotor's component, and of its unit."""

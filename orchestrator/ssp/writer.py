@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from fmus.variable import UNITS
+from fmus.port.variable import UNITS
 from orchestrator.ssp.structure import Component, SspError, Structure
 
 NAMESPACES = {

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_fmu import compiled, vector
+from bearing_fmu.kernels import compiled, vector
 
 LANES = vector.LANES
 

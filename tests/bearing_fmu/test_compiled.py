@@ -10,9 +10,9 @@ import pytest
 from tests.faults import fault
 
 ROOT = Path(__file__).parents[2]
-COMPILED = "bearing_fmu/compiled.py"
+COMPILED = "bearing_fmu/kernels/compiled.py"
 MODULE = """
-from bearing_fmu.compiled import kernel
+from bearing_fmu.kernels.compiled import kernel
 
 @kernel
 def twice(x):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from bearing_fmu.contact.greenwood_tripp import asperity_integral, contact_pressure
 from bearing_fmu.film import make_film
-from bearing_fmu.greenwood_tripp import asperity_integral, contact_pressure
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond, table
 
 

@@ -252,6 +252,7 @@ def test_bad_parameters_are_named(key, value, allowed):
 
 
 def test_kernels_are_renewed_by_any_module_of_the_package():
-    from bearing_fmu import compiled, evaluate
+    from bearing_fmu import evaluate
+    from bearing_fmu.kernels import compiled
 
     assert evaluate.evaluate_v1._cache._cache_file._source_stamp == compiled._digest()

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import quad
 
+from bearing_fmu.bore.gap import RESIDUAL, ROUGH_LIMIT, flow_gap
 from bearing_fmu.film import make_film
-from bearing_fmu.gap import RESIDUAL, ROUGH_LIMIT, flow_gap
 from tests.bearing_fmu.bearings import plain, respond
 
 SIGMA = 0.004

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bearing_fmu.axial import axial_basis, gauss_lobatto
-from bearing_fmu.guembel import bearing_part
-from bearing_fmu.ring import factorise, substitute
-from bearing_fmu.vector import padded
+from bearing_fmu.kernels.axial import axial_basis, gauss_lobatto
+from bearing_fmu.kernels.cyclic_solver import factorise, substitute
+from bearing_fmu.kernels.guembel import bearing_part
+from bearing_fmu.kernels.vector import padded
 
 
 @pytest.mark.parametrize("count", [4, 7, 10])

@@ -10,8 +10,8 @@ import numba
 import numpy as np
 import pytest
 
-from bearing_fmu import vector
 from bearing_fmu.film import make_film
+from bearing_fmu.kernels import vector
 from tests.bearing_fmu.bearings import lever, plain
 from tests.bearing_fmu.plain import OPERATIONS
 

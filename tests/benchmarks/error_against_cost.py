@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from typing import NamedTuple
 
-from orchestrator.coupling import SCHEMES
+from orchestrator.master.coupling import SCHEMES
 from tests.benchmarks.monolithic import COLUMNS, TOLERANCES, WINDOWS, Row, reference_of, row, solve
 from tests.benchmarks.runs import Case, prepare, rms_error, run
 from tests.benchmarks.table import show

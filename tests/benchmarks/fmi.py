@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from fmus import port
-from fmus.build import bearing_recipe, rotor_recipe, write
-from orchestrator.fmu_file import FmuStore
-from orchestrator.unit import Block, Unit
-from rotor_fmu.train_file import load_train
+from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.unit import Block, Unit
+from rotor_fmu.train.file import load_train
 
 H = 1e-4
 

@@ -13,16 +13,16 @@ import numpy as np
 
 from bearing_fmu.film import make_film
 from fmus import port
-from fmus.build import bearing_recipe, write
-from orchestrator.fmu_file import FmuStore
-from orchestrator.graph import Graph
-from orchestrator.unit import Unit
-from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.prepared_shaft import PreparedShaft, prepare_shaft
-from rotor_fmu.reduction import reduce
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.train_file import load_train
-from rotor_fmu.unbalance import Unbalance
+from fmus.build.builder import bearing_recipe, write
+from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.graph import Graph
+from rotor_fmu.reduction.reduce import reduce
+from rotor_fmu.shaft.prepared import PreparedShaft, prepare_shaft
+from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.rotor import Rotor
 from tests.bearing_fmu.bearings import lever, plain
 from tests.benchmarks.rotor import oil_films
 from tests.benchmarks.table import least_time, show

@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from orchestrator.fmu_folder import ensure_fmus
-from orchestrator.scenario import REDUCTIONS
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
+from orchestrator.case.simulate import simulate
+from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.scenario import REDUCTIONS
 
 WINDOW = 0.1
 """Time before and after the fracture [s]."""

@@ -9,10 +9,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from rotor_fmu.reduction import METHODS, Method
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.train import Train
-from rotor_fmu.train_file import load_train
+from rotor_fmu.reduction.reduce import METHODS, Method
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Train
+from rotor_fmu.vibration.rotor import Rotor
 
 Result = TypeVar("Result")
 

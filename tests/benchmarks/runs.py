@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.build import build
-from orchestrator.assembly import assemble
-from orchestrator.equilibrium import Start, find_start
-from orchestrator.fmu_file import FmuStore
-from orchestrator.scenario import Scenario
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Execution, Result, Stage, simulate
-from rotor_fmu.train import Train
+from fmus.build.builder import build
+from orchestrator.case.simulate import Execution, Result, Stage, simulate
+from orchestrator.fmi.file import FmuStore
+from orchestrator.master.assembly import assemble
+from orchestrator.master.start.equilibrium import Start, find_start
+from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.train import Train
 from tests.monolithic.holistic import Holistic, holistic_model
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from time import perf_counter
 import numpy as np
 
 from bearing_fmu.film import Film, make_film
-from orchestrator.simulate import Execution
+from orchestrator.case.simulate import Execution
 from tests.bearing_fmu.bearings import lever, plain
 from tests.benchmarks.runs import prepare, run
 from tests.benchmarks.table import show

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from spring_unit.facade import VARIABLES
 
-from fmus import build
-from fmus.recipe import Recipe
-from rotor_fmu.train_file import load_train
+from fmus.build import builder as build
+from fmus.build.recipe import Recipe
+from rotor_fmu.train.file import load_train
 from tests.fmus.host import Host
 
 

@@ -6,29 +6,29 @@ from pathlib import Path
 
 import pytest
 
-from fmus.sources import source_files
+from fmus.build.sources import source_files
 
 REPOSITORY = Path(__file__).parents[2]
 PHYSICS = ("rotor_fmu", "bearing_fmu")
 # Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time
 # for a unit to step in.
 OF_PHYSICS_FOR_THE_MASTER = {
-    "rotor_fmu.train",
-    "rotor_fmu.train_file",
-    "rotor_fmu.train_checks",
-    "rotor_fmu.toml_source",
-    "rotor_fmu.wording",
-    "rotor_fmu.linear",
+    "rotor_fmu.train.train",
+    "rotor_fmu.train.file",
+    "rotor_fmu.train.checks",
+    "rotor_fmu.train.toml_source",
+    "rotor_fmu.train.wording",
+    "rotor_fmu.linear.analysis",
 }
-OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.variable"}
+OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.port.variable"}
 OF_FMUS_FOR_THE_MASTER = {
     "fmus.port",
-    "fmus.variable",
-    "fmus.build",
-    "fmus.archive",
-    "fmus.failure",
-    "fmus.memoryless",
-    "fmus.own",
+    "fmus.port.variable",
+    "fmus.build.builder",
+    "fmus.build.archive",
+    "fmus.unit.failure",
+    "fmus.build.memoryless",
+    "fmus.build.own",
 }
 
 
@@ -84,7 +84,9 @@ def test_the_master_reaches_physics_through_fmus_only(path):
 def test_the_fmi_side_knows_of_physics_what_the_builder_needs(path):
     names = imports(path)
     assert not tops(names) & {"orchestrator", "fmpy", "bearing_fmu"}
-    allowed = {"rotor_fmu.defaults", "rotor_fmu.train"} if path.name in ("build.py", "own.py") else set()
+    allowed = (
+        {"rotor_fmu.start_values", "rotor_fmu.train.train"} if path.name in ("build.py", "own.py") else set()
+    )
     assert of(names, "rotor_fmu") <= allowed
 
 

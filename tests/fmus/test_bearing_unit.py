@@ -8,8 +8,8 @@ import pytest
 from bearing_fmu.film import make_film
 from bearing_fmu.parameters import BearingParameters
 from fmus import port
-from fmus.build import DEPTHS, bearing_recipe
-from fmus.failure import FILM_FAILED
+from fmus.build.builder import DEPTHS, bearing_recipe
+from fmus.unit.failure import FILM_FAILED
 from tests.faults import fault
 
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]

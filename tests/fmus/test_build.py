@@ -7,9 +7,9 @@ import zipfile
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmus import build
-from fmus.archive import guid_in, write_archive
-from fmus.sources import source_files
+from fmus.build import builder as build
+from fmus.build.archive import guid_in, write_archive
+from fmus.build.sources import source_files
 from tests.fmus.conftest import spring_recipe
 
 BUILT = ("rotor_small.fmu", "bearing_v1.fmu", "bearing_v2.fmu", "bearing_v3.fmu")
@@ -84,8 +84,10 @@ def test_the_archive_holds_what_the_facade_imports_and_no_more(spring_fmu):
     with zipfile.ZipFile(spring_fmu) as archive:
         names = archive.namelist()
     ours = {n.removeprefix("resources/packages/") for n in names if n.startswith("resources/packages/")}
-    assert {"fmus/slave.py", "fmus/port.py", "spring_unit/facade.py"} <= ours
-    assert not {"fmus/build.py", "fmus/recipe.py", "fmus/loader.py", "fmus/README.md"} & ours
+    assert {"fmus/unit/slave.py", "fmus/port/__init__.py", "spring_unit/facade.py"} <= ours
+    assert (
+        not {"fmus/build/builder.py", "fmus/build/recipe.py", "fmus/unit/loader.py", "fmus/README.md"} & ours
+    )
     assert not [n for n in names if "__pycache__" in n or "tests" in n]
     assert "documentation/index.html" in names and "documentation/licenses/pythonfmu.txt" in names
 

@@ -2,12 +2,13 @@
 
 import re
 
-from fmus import describe, port
+from fmus import port
+from fmus.build import describe
 
 
 def test_the_tables_of_the_readme_match_the_port():
     text = describe.README.read_text(encoding="utf-8")
-    assert describe.with_tables(text) == text, "run python -m fmus.describe"
+    assert describe.with_tables(text) == text, "run python -m fmus.build.describe"
 
 
 def test_every_variable_stands_in_the_tables(small_train):

@@ -6,8 +6,8 @@ from zipfile import ZipFile
 import pytest
 
 from fmus import port
-from fmus.description import STEP_SIZE
-from fmus.memoryless import is_memoryless
+from fmus.build.description import STEP_SIZE
+from fmus.build.memoryless import is_memoryless
 
 
 def variables_of(host):

@@ -4,8 +4,8 @@ import pytest
 from spring_unit.facade import LAYOUT, VARIABLES
 
 from fmus import port
-from fmus.layout import Layout
-from fmus.variable import Variable
+from fmus.port.variable import Variable
+from fmus.unit.layout import Layout
 
 
 def test_blocks_of_the_bearing():

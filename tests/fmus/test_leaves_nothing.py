@@ -11,7 +11,7 @@ REPOSITORY = Path(__file__).parents[2]
 CYCLES = """
 import gc, sys
 from pathlib import Path
-from fmus.slave import UnitSlave
+from fmus.unit.slave import UnitSlave
 from tests.fmus.host import Host
 
 def resident():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from fmus.build import write
+from fmus.build.builder import write
 from tests.fmus.conftest import spring_recipe
 
 REPOSITORY = Path(__file__).parents[2]
@@ -90,7 +90,7 @@ def test_a_damaged_cache_folder_is_passed_over(run, spring_fmu, tmp_path):
 
 def test_a_host_with_the_same_sources_uses_its_own(run, spring_fmu):
     tests = Path(__file__).parent
-    (found,), places = run(spring_fmu, bare=False, path=[REPOSITORY, tests], loaded=["fmus.slave"])
+    (found,), places = run(spring_fmu, bare=False, path=[REPOSITORY, tests], loaded=["fmus.unit.slave"])
     assert found["step"]
     assert places == {"fmus": REPOSITORY / "fmus", "spring_unit": tests / "spring_unit"}
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from fmus import port
-from fmus.build import rotor_recipe
-from rotor_fmu.defaults import default_starts
-from rotor_fmu.rotor import Rotor
+from fmus.build.builder import rotor_recipe
+from rotor_fmu.start_values import default_starts
+from rotor_fmu.vibration.rotor import Rotor
 
 H = 1e-4
 

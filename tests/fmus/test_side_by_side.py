@@ -6,7 +6,7 @@ from itertools import product
 import pytest
 
 from fmus import port
-from fmus.build import DEPTHS
+from fmus.build.builder import DEPTHS
 from tests.fmus.host import Host
 
 H = 1e-4

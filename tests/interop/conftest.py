@@ -2,8 +2,8 @@
 
 import pytest
 
-from fmus.build import build
-from orchestrator.scenario_file import load_scenario, train_of
+from fmus.build.builder import build
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 
 FRACTURE = {"end": 0.2, "event": {"time": 0.1003}}

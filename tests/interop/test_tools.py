@@ -6,9 +6,9 @@ import sys
 import numpy as np
 import pytest
 
-from fmus.archive import write_archive
-from fmus.build import build
-from orchestrator.scenario_file import load_scenario, train_of
+from fmus.build.archive import write_archive
+from fmus.build.builder import build
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import Component, Structure

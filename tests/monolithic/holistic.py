@@ -20,16 +20,16 @@ from numpy.typing import NDArray
 
 from bearing_fmu.film import Film, make_film
 from bearing_fmu.parameters import BearingParameters
-from orchestrator.equilibrium import Start
-from orchestrator.parameters import rotor_parameters
-from orchestrator.scenario import Scenario
-from rotor_fmu.condensation import Equilibrium
-from rotor_fmu.modal_shaft import ModalShaft
-from rotor_fmu.prepared_shaft import prepare_shaft
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.state_space import journal_output, state_matrix
-from rotor_fmu.train import BearingSeat, Train
-from rotor_fmu.unbalance import Unbalance
+from orchestrator.master.start.equilibrium import Start
+from orchestrator.scenario.parameters import rotor_parameters
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.prepared import prepare_shaft
+from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.train.train import BearingSeat, Train
+from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.state_space import journal_output, state_matrix
 
 Array = NDArray[np.float64]
 

@@ -18,9 +18,9 @@ import pytest
 
 from bearing_fmu.film import make_film
 from bearing_fmu.parameters import BearingParameters
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.train_file import load_train
-from rotor_fmu.work import Work
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.work import Work
 from tests.bearing_fmu.test_film_energy import reynolds_losses, short_losses
 
 GRAVITY = 9.80665

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-_CODE = "import sys; from orchestrator.cli import main; sys.argv[0] = 'bladeloss'; main()"
+_CODE = "import sys; from orchestrator.cli.main import main; sys.argv[0] = 'bladeloss'; main()"
 
 
 def command(*arguments, env=(), code=_CODE, **options):

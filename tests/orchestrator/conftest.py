@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from fmus.build import build
-from orchestrator.fmu_file import FmuStore
-from orchestrator.scenario_file import load_scenario, train_of
+from fmus.build.builder import build
+from orchestrator.fmi.file import FmuStore
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 
 UNITS = Path(__file__).parent / "units"

@@ -5,7 +5,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from typer.testing import CliRunner
 
 from orchestrator import exit_status
-from orchestrator.cli import app
+from orchestrator.cli.main import app
 
 
 def call(*arguments):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from orchestrator.system import System, Wiring
-from orchestrator.unit import Unit
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.system import System, Wiring
 
 JOURNAL_MASS, INNER_MASS, SHAFT_STIFFNESS, SHAFT_DAMPING = 100.0, 400.0, 4e6, 1e3
 DISPLACEMENT = 1e-3

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from orchestrator.comparison.observation import Condition, Observation
-from orchestrator.comparison.runs import Runs
-from orchestrator.statistics import BearingStatistics, ShaftStatistics
-from orchestrator.windows import Phase, Window
-from rotor_fmu.train import BearingSeat
+from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
+from orchestrator.results.windows import Phase, Window
+from orchestrator.study.paper.observation import Condition, Observation
+from orchestrator.study.paper.runs import Runs
+from rotor_fmu.train.train import BearingSeat
 
 SEAT = BearingSeat("LP1-front", 3, 0.8, 0.64, 8.6e-4, 0.0242, roughness=2e-6)
 THRESHOLD = 1.8e3

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 import xarray as xr
 
-from rotor_fmu.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
+from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 
 SPEED = 2 * np.pi * 25.0
 STEEL = Material("steel", 2.06e11, 0.3, 7850.0)

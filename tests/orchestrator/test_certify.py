@@ -7,12 +7,12 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from orchestrator.certify import at_half_step, certify
+from orchestrator.case.simulate import simulate
+from orchestrator.commands.run import RunRequest, carry_out_request
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.run_command import RunRequest, carry_out_request
-from orchestrator.simulate import simulate
-from orchestrator.summary import summarise
+from orchestrator.results.certificate import at_half_step, certify
+from orchestrator.results.record_files import read_record
+from orchestrator.results.summary import summarise
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -57,7 +57,7 @@ def test_a_run_equals_itself(fmus, tmp_path):
 
 
 def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
-    monkeypatch.setattr("orchestrator.run_command.ensure_fmus", lambda *_: None)
+    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: None)
     scenario = toy_scenario(tmp_path, event=BLADE, end=0.1)
     out, console = tmp_path / "out", Console(quiet=True)
     request = RunRequest("toy", out=out, fmus=fmus, formats=(), certify=True)
@@ -74,10 +74,10 @@ def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
     "process",
     "the certificate's run at half the step fails",
     "the results are written; exit status of that run, and that it was the certificate's",
-    broken=("orchestrator/run_command.py", "and not half.outcome.ok:", "and half.outcome is None:"),
+    broken=("orchestrator/commands/run.py", "and not half.outcome.ok:", "and half.outcome is None:"),
 )
 def test_a_failed_certificate_is_no_success(fmus, tmp_path, monkeypatch):
-    monkeypatch.setattr("orchestrator.run_command.ensure_fmus", lambda *_: None)
+    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: None)
     whole = simulate
 
     def failing_at_half(scenario, *arguments):
@@ -85,7 +85,7 @@ def test_a_failed_certificate_is_no_success(fmus, tmp_path, monkeypatch):
         failed = {"outcome": Outcome.TOLERANCE_MISSED, "message": "at t = 0.02 s: too far"}
         return replace(result, **failed) if scenario.step < 1e-3 else result
 
-    monkeypatch.setattr("orchestrator.run_command.simulate", failing_at_half)
+    monkeypatch.setattr("orchestrator.commands.run.simulate", failing_at_half)
     scenario = toy_scenario(tmp_path, event=BLADE, end=0.05)
     said = StringIO()
     request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)

@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fmus.build import build
-from orchestrator import checkpoint
-from orchestrator.checkpoint import CheckpointError, Checkpoints
-from orchestrator.checkpoint_folder import checkpoint_folder
+from fmus.build.builder import build
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.simulate import Execution, Stage, simulate
+from orchestrator.observers import checkpoint
+from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Execution, Stage, simulate
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario.file import load_scenario, train_of
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -84,7 +84,11 @@ def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
     "machine",
     "a full disk while a checkpoint is written",
     "the checkpoint before stays whole",
-    broken=("orchestrator/checkpoint.py", 'fresh = path.with_name(path.name + ".part")', "fresh = path"),
+    broken=(
+        "orchestrator/observers/checkpoint.py",
+        'fresh = path.with_name(path.name + ".part")',
+        "fresh = path",
+    ),
 )
 def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     path = tmp_path / checkpoint.FILE
@@ -105,7 +109,7 @@ def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     "process",
     "no checkpoint, or one of another version",
     "exit 2; file, what it is and what is read",
-    broken=("orchestrator/checkpoint.py", "if version != _VERSION:", "if False:"),
+    broken=("orchestrator/observers/checkpoint.py", "if version != _VERSION:", "if False:"),
 )
 def test_missing_and_damaged_checkpoints_are_said(tmp_path):
     with pytest.raises(CheckpointError, match="only a run with --checkpoint can be resumed"):
@@ -122,7 +126,7 @@ def test_missing_and_damaged_checkpoints_are_said(tmp_path):
     "process",
     "a checkpoint of other FMUs than those at hand",
     "CheckpointError; FMU, its GUID and the one found",
-    broken=("orchestrator/checkpoint.py", "if saved != found:", "if False:"),
+    broken=("orchestrator/observers/checkpoint.py", "if saved != found:", "if False:"),
 )
 def test_a_checkpoint_of_other_fmus_is_refused(toy, tmp_path):
     scenario = toy_scenario(tmp_path)
@@ -135,7 +139,7 @@ def test_a_checkpoint_of_other_fmus_is_refused(toy, tmp_path):
 
 
 def command(*arguments):
-    code = "import sys; from orchestrator.cli import main; sys.argv[0] = 'bladeloss'; main()"
+    code = "import sys; from orchestrator.cli.main import main; sys.argv[0] = 'bladeloss'; main()"
     root = Path(__file__).parents[2]
     return subprocess.Popen(
         [sys.executable, "-c", code, *map(str, arguments)],

@@ -12,13 +12,16 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from orchestrator import cli, exit_status, run_command, scenario
-from orchestrator.cli import app
-from orchestrator.figures.write import FORMATS
+from orchestrator import exit_status
+from orchestrator.case.simulate import Result, Timing
+from orchestrator.cli import main as cli
+from orchestrator.cli.main import app
+from orchestrator.commands import run as run_command
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.simulate import Result, Timing
-from rotor_fmu.train_file import load_train
+from orchestrator.results.figures.write import FORMATS
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario import scenario
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator import synthetic_record
 
@@ -82,7 +85,7 @@ def test_help_mentions_every_option_and_exit_status(here):
 
 def test_help_is_quick_because_nothing_heavy_is_imported():
     heavy = ("numpy", "xarray", "matplotlib", "fmpy", "pydantic")
-    code = f"import sys, orchestrator.cli; print(sorted(set({heavy}) & set(sys.modules)))"
+    code = f"import sys, orchestrator.cli.main; print(sorted(set({heavy}) & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
 
@@ -150,7 +153,7 @@ def test_mistakes_in_a_scenario_name_file_key_and_value(here, old, new, named):
     "input",
     "--out that names a folder with other files in it",
     "exit 2; the folder, `no earlier result`; nothing is written",
-    broken=("orchestrator/run_command.py", "    check_folder(folder)\n", "    pass\n"),
+    broken=("orchestrator/commands/run.py", "    check_folder(folder)\n", "    pass\n"),
 )
 def test_alien_folders_are_not_written_to(here, monkeypatch):
     monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: pytest.fail("went on"))
@@ -281,7 +284,7 @@ def test_a_run_that_never_began_leaves_nothing(here, monkeypatch):
 
 
 def test_the_default_folder_names_scenario_and_depth():
-    from orchestrator.scenario_file import load_scenario
+    from orchestrator.scenario.file import load_scenario
 
     assert run_command.default_folder("small", load_scenario("small")) == Path("results/small-v1")
     mixed = load_scenario("small", {"depth": "v2", "depth_at": {"rear": "v3"}})

@@ -12,13 +12,14 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from orchestrator import compare_command, exit_status
-from orchestrator.cli import app
-from orchestrator.compare_command import CompareRequest, refine
-from orchestrator.comparison.worker import Ended, simulate_task
+from orchestrator import exit_status
+from orchestrator.cli.main import app
+from orchestrator.commands import compare as compare_command
+from orchestrator.commands.compare import CompareRequest, refine
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.scenario_file import load_scenario
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario.file import load_scenario
+from orchestrator.study.paper.worker import Ended, simulate_task
 
 SHORT = """\
 title = "Short"

@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from orchestrator.compare_command import status_of
-from orchestrator.comparison.processes import DIED, cores, run_all
-from orchestrator.comparison.progress import show_runs
-from orchestrator.comparison.worker import Ended, Progressed, Task
+from orchestrator.case.simulate import Stage
+from orchestrator.commands.compare import status_of
 from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario
-from orchestrator.simulate import Stage
+from orchestrator.scenario.file import load_scenario
+from orchestrator.study.paper.processes import DIED, cores, run_all
+from orchestrator.study.paper.progress import show_runs
+from orchestrator.study.paper.worker import Ended, Progressed, Task
 from tests.faults import fault
 
 FINISHED = Ended("finished", "", "", 0.3, 1.0)
@@ -79,7 +79,7 @@ def test_every_run_tells_its_progress_and_its_end(tmp_path):
     "a worker that dies in `compare`",
     "`process-died` with signal or exit code, exit 8; the others go on",
     broken=(
-        "orchestrator/comparison/processes.py",
+        "orchestrator/study/paper/processes.py",
         "end(run.task, message or _died(run))",
         "end(run.task, message)",
     ),
@@ -101,7 +101,7 @@ def test_no_more_runs_at_once_than_asked_for(tmp_path):
     "wrong input that only a worker of `compare` finds",
     "exit 2 with its message; the other workers are ended",
     broken=(
-        "orchestrator/comparison/processes.py",
+        "orchestrator/study/paper/processes.py",
         "if isinstance(message, OrchestratorError):",
         "if False:",
     ),
@@ -116,7 +116,7 @@ def test_wrong_input_found_by_a_run_is_an_error(tmp_path):
     "Ctrl-C in `compare`",
     "the runs under way end between two steps, no other starts; exit 130",
     broken=(
-        "orchestrator/comparison/processes.py",
+        "orchestrator/study/paper/processes.py",
         "end(task, _not_started())",
         "pass",
     ),
@@ -137,7 +137,7 @@ def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):
     "process",
     "SIGTERM in `compare`",
     "as Ctrl-C, but `terminated`, exit 143",
-    broken=("orchestrator/comparison/processes.py", "if asked[:1] == [signal.SIGTERM]", "if False"),
+    broken=("orchestrator/study/paper/processes.py", "if asked[:1] == [signal.SIGTERM]", "if False"),
 )
 def test_a_request_to_terminate_ends_the_runs_by_that_name(tmp_path):
     def terminate(_name, message):

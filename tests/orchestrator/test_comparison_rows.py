@@ -9,15 +9,15 @@ from io import StringIO
 import numpy as np
 import pytest
 
-from orchestrator.comparison import paper
-from orchestrator.comparison.conclusions import Action, conclude
-from orchestrator.comparison.criterion import RATIO, Criterion, Row, Verdict
-from orchestrator.comparison.observation import absent, observe
-from orchestrator.comparison.report import Settings, changes, compare, to_csv, to_json
-from orchestrator.comparison.rows import rows
-from orchestrator.comparison.table import to_text
-from orchestrator.comparison.worker import Ended
-from orchestrator.quantities import GAP
+from orchestrator.results.quantities import GAP
+from orchestrator.study.paper import paper
+from orchestrator.study.paper.conclusions import Action, conclude
+from orchestrator.study.paper.criterion import RATIO, Criterion, Row, Verdict
+from orchestrator.study.paper.observation import absent, observe
+from orchestrator.study.paper.report import Settings, changes, compare, to_csv, to_json
+from orchestrator.study.paper.rows import rows
+from orchestrator.study.paper.table import to_text
+from orchestrator.study.paper.worker import Ended
 from tests.orchestrator import synthetic_record
 from tests.orchestrator.paper_runs import runs, spoiled
 

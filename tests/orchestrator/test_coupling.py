@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from orchestrator.coupling import SCHEMES, GaussSeidel, Jacobi, LinearImplicit
-from orchestrator.system import Wiring
+from orchestrator.master.coupling import SCHEMES, GaussSeidel, Jacobi, LinearImplicit
+from orchestrator.master.system import Wiring
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 
 END = 0.02  # s; the modes have 15.7 and 48 Hz and more

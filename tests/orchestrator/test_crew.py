@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from orchestrator.crew import Crew
+from orchestrator.case.simulate import Execution, default_threads, simulate
+from orchestrator.fmi.unit import Status, UnitError
+from orchestrator.master.threads import Crew
 from orchestrator.outcome import Outcome
-from orchestrator.simulate import Execution, default_threads, simulate
-from orchestrator.unit import Status, UnitError
-from rotor_fmu.train_file import load_train
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -39,7 +39,7 @@ def test_every_unit_steps_once(threads):
     "unit",
     "units that fail at the same time on several threads",
     "the error of the first in their order, as on one thread",
-    broken=("orchestrator/crew.py", "raise errors[min(errors)]", "raise errors[max(errors)]"),
+    broken=("orchestrator/master/threads.py", "raise errors[min(errors)]", "raise errors[max(errors)]"),
 )
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_the_first_error_in_the_order_of_units_counts_and_all_step(threads):

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from orchestrator.equilibrium import apply_start, find_start
 from orchestrator.errors import EquilibriumError
-from orchestrator.film_position import aligned_positions, tilted_positions
-from orchestrator.system import System
-from orchestrator.unit import Unit
-from rotor_fmu.train import BearingSeat
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.start.equilibrium import apply_start, find_start
+from orchestrator.master.start.journal_position import aligned_positions, tilted_positions
+from orchestrator.master.system import System
+from rotor_fmu.train.train import BearingSeat
 from tests.orchestrator.toy_train import (
     CLEARANCE,
     DAMPING,

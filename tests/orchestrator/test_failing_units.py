@@ -4,15 +4,15 @@ from zipfile import ZipFile
 
 import pytest
 
-from fmus.archive import write_archive
+from fmus.build.archive import write_archive
 from orchestrator import exit_status
+from orchestrator.fmi.unit import Status, Unit, UnitError
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.unit import Status, Unit, UnitError
+from orchestrator.results.record_files import read_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call, with_text
 
-UNIT = "orchestrator/unit.py"
+UNIT = "orchestrator/fmi/unit.py"
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def run(small_fmus, tmp_path, monkeypatch):
     "an FMU that returns NaN",
     "exit 6, `not-finite`; bearing, time; no NaN in the motion that is recorded",
     broken=(
-        "orchestrator/stepping.py",
+        "orchestrator/master/stepping.py",
         "if not (math.isfinite(size) and math.isfinite(system.journals.sum())):",
         "if False:",
     ),
@@ -86,7 +86,7 @@ def test_a_unit_of_another_platform(faulty, run, tmp_path):
     "an FMU for model exchange, or of another version of FMI",
     "exit 2; file, `not an FMI 2.0 co-simulation unit` or the schema's complaint",
     broken=(
-        "orchestrator/fmu_file.py",
+        "orchestrator/fmi/file.py",
         'if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:',
         "if False:",
     ),

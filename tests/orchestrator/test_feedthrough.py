@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from orchestrator.coupling import SCHEMES
-from orchestrator.system import System, Wiring
-from orchestrator.unit import Unit
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.coupling import SCHEMES
+from orchestrator.master.system import System, Wiring
 from tests.orchestrator.oscillator import begin
 
 UNITS = Path(__file__).parent / "units"

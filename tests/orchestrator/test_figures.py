@@ -7,17 +7,17 @@ import pytest
 import xarray as xr
 from matplotlib.collections import PolyCollection
 
-from orchestrator import quantities, statistics
-from orchestrator.figures import panels, style
-from orchestrator.figures.deformation import dynamic_deflection, worst_instant
-from orchestrator.figures.deformed_train import deformed_train
-from orchestrator.figures.forces_and_moments import forces_and_moments
-from orchestrator.figures.least_gap import least_gap
-from orchestrator.figures.normal_stress import normal_stress
-from orchestrator.figures.overview import overview
-from orchestrator.figures.spread import spread
-from orchestrator.figures.vibration_amplitude import vibration_amplitude
-from orchestrator.figures.write import write_figures
+from orchestrator.results import quantities, statistics
+from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.deformation import dynamic_deflection, worst_instant
+from orchestrator.results.figures.deformed_train import deformed_train
+from orchestrator.results.figures.forces_and_moments import forces_and_moments
+from orchestrator.results.figures.least_gap import least_gap
+from orchestrator.results.figures.normal_stress import normal_stress
+from orchestrator.results.figures.overview import overview
+from orchestrator.results.figures.spread import spread
+from orchestrator.results.figures.vibration_amplitude import vibration_amplitude
+from orchestrator.results.figures.write import write_figures
 from tests.orchestrator import synthetic_record
 
 BEARING = "LP2-front"

@@ -9,15 +9,15 @@ from zipfile import ZIP_BZIP2, ZipFile
 
 import pytest
 
-from fmus.archive import write_archive
+from fmus.build.archive import write_archive
 from orchestrator.errors import FmuError
-from orchestrator.fmu_file import FmuStore
-from orchestrator.safe_archive import ArchiveError, Limits, extract
+from orchestrator.fmi.archive import ArchiveError, Limits, extract
+from orchestrator.fmi.file import FmuStore
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_entry
 
 ARCHIVE, XML, FMU, READER = (
-    f"orchestrator/{name}.py" for name in ("safe_archive", "safe_xml", "fmu_file", "ssp/reader")
+    f"orchestrator/{name}.py" for name in ("fmi/archive", "fmi/xml", "fmi/file", "ssp/reader")
 )
 
 
@@ -185,7 +185,7 @@ def test_the_number_of_entries(small_fmus, room):
     broken=(FMU, "self._left -= self._files[key].size", "pass"),
 )
 def test_all_fmus_of_a_run_share_one_limit(small_fmus, monkeypatch):
-    monkeypatch.setattr("orchestrator.fmu_file.LIMITS", Limits(total=1_500_000))
+    monkeypatch.setattr("orchestrator.fmi.file.LIMITS", Limits(total=1_500_000))
     with FmuStore() as store:
         store.open(small_fmus / "bearing_v3.fmu")
         with pytest.raises(FmuError, match="more than the 0 MiB that are allowed"):

@@ -5,14 +5,14 @@ from zipfile import ZipFile
 
 import pytest
 
-from fmus.archive import guid_in, write_archive
+from fmus.build.archive import guid_in, write_archive
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_doctype, with_text
 
 CONTENTS = "orchestrator/ssp/contents.py"
-XML, FMU, READER = (f"orchestrator/{name}.py" for name in ("safe_xml", "fmu_file", "ssp/reader"))
+XML, FMU, READER = (f"orchestrator/{name}.py" for name in ("fmi/xml", "fmi/file", "ssp/reader"))
 LAUGHS = '<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">'
 EXTERNAL = '<!ENTITY a SYSTEM "file:///etc/hostname">'
 
@@ -171,7 +171,7 @@ def test_a_damaged_train(small_ssp, small_fmus, tmp_path):
     "archive",
     "a doctored FMU in the build folder, with a document type",
     "it counts as stale, and is built anew",
-    broken=("fmus/archive.py", "forbid_dtd=True", "forbid_dtd=False"),
+    broken=("fmus/build/archive.py", "forbid_dtd=True", "forbid_dtd=False"),
 )
 def test_the_guid_is_read_with_the_same_care(small_fmus, tmp_path):
     bearing = small_fmus / "bearing_v3.fmu"

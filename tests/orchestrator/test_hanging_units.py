@@ -9,17 +9,18 @@ from types import FunctionType
 
 import pytest
 
-from orchestrator import exit_status, unit, watchdog
-from orchestrator.comparison.processes import run_all
-from orchestrator.comparison.worker import Task
+from orchestrator import exit_status
+from orchestrator.fmi import unit, watchdog
+from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.scenario_file import load_scenario
-from orchestrator.watchdog import Watchdog
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario.file import load_scenario
+from orchestrator.study.paper.processes import run_all
+from orchestrator.study.paper.worker import Task
 from tests.faults import fault
 from tests.orchestrator.commands import done
 
-DOG = "orchestrator/watchdog.py"
+DOG = "orchestrator/fmi/watchdog.py"
 HUNG = (
     "exit 12, `unit-hung`; unit, call, time; the record up to there in `-partial`, nothing extracted remains"
 )
@@ -112,7 +113,7 @@ def test_a_unit_that_keeps_the_lock(run, tmp_path):
     "a native FMU, which Python's lock would keep the watchdog from watching",
     "it is called without the lock",
     broken=(
-        "orchestrator/fmu_file.py",
+        "orchestrator/fmi/file.py",
         "kind = ctypes.PyDLL if self.is_python else ctypes.CDLL",
         "kind = ctypes.PyDLL",
     ),
@@ -172,7 +173,7 @@ def test_calls_that_come_back_do_not_add_up():
     "process",
     "a unit that hangs in a run of `compare`",
     "that run is `unit-hung`, with its record; the others go on",
-    broken=("orchestrator/comparison/worker.py", "Watchdog(task.budget", "Watchdog(0.0"),
+    broken=("orchestrator/study/paper/worker.py", "Watchdog(task.budget", "Watchdog(0.0"),
 )
 def test_a_hanging_unit_ends_the_process_of_its_run(faulty, small_fmus, tmp_path, monkeypatch):
     monkeypatch.setenv("FAULT", "sleep")

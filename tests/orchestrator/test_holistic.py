@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from fmus.build import build
-from orchestrator.assembly import assemble
-from orchestrator.coupling import SCHEMES
-from orchestrator.equilibrium import find_start
-from orchestrator.fmu_file import FmuStore
+from fmus.build.builder import build
+from orchestrator.case.simulate import simulate
+from orchestrator.fmi.file import FmuStore
+from orchestrator.master.assembly import assemble
+from orchestrator.master.coupling import SCHEMES
+from orchestrator.master.start.equilibrium import find_start
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
+from orchestrator.scenario.file import load_scenario, train_of
 from tests.monolithic.holistic import holistic_model
 from tests.monolithic.integrate import integrate
 

@@ -4,8 +4,8 @@ import signal
 
 import pytest
 
-from orchestrator.interrupt import interrupt_between_steps
-from orchestrator.simulate import Stage
+from orchestrator.case.simulate import Stage
+from orchestrator.master.interrupt import interrupt_between_steps
 from tests.faults import fault
 
 
@@ -13,7 +13,11 @@ from tests.faults import fault
     "process",
     "Ctrl-C while a unit is in a call",
     "it waits for the end of the step: a unit that is interrupted is lost",
-    broken=("orchestrator/interrupt.py", "        due.append(number)", "        raise SIGNALS[number]"),
+    broken=(
+        "orchestrator/master/interrupt.py",
+        "        due.append(number)",
+        "        raise SIGNALS[number]",
+    ),
 )
 def test_the_next_report_raises_and_the_handler_is_restored():
     before, seen = signal.getsignal(signal.SIGINT), []
@@ -35,7 +39,7 @@ def test_the_next_report_raises_and_the_handler_is_restored():
     "Ctrl-C twice",
     "the second is not held back",
     broken=(
-        "orchestrator/interrupt.py",
+        "orchestrator/master/interrupt.py",
         "        if due:\n            raise SIGNALS[number]",
         "        if False:\n            raise SIGNALS[number]",
     ),

@@ -4,11 +4,18 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from orchestrator.coupling import GaussSeidel, IqnIls, LinearImplicit, Newton, NotConverged, make_scheme
-from orchestrator.coupling.secant_law import secant_laws
-from orchestrator.graph import Connection, Graph
-from orchestrator.loop import Loop
-from orchestrator.unit import Unit
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.coupling import (
+    GaussSeidel,
+    IqnIls,
+    LinearImplicit,
+    Newton,
+    NotConverged,
+    make_scheme,
+)
+from orchestrator.master.coupling.secant_law import secant_laws
+from orchestrator.master.graph import Connection, Graph
+from tests.orchestrator.loop import Loop
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 from tests.orchestrator.units.loop_matrices import Z0, closed
 

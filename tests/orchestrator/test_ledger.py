@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from fmus.build import build
-from orchestrator.coupling import LinearImplicit
-from orchestrator.ledger import Ledger
+from fmus.build.builder import build
+from orchestrator.case.simulate import simulate
+from orchestrator.master.coupling import LinearImplicit
+from orchestrator.observers.ledger import Ledger
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
-from orchestrator.summary import summarise
-from orchestrator.summary_table import to_text
+from orchestrator.results.summary import summarise
+from orchestrator.results.summary_table import to_text
+from orchestrator.scenario.file import load_scenario, train_of
 from tests.orchestrator.oscillator import DISPLACEMENT, released
 
 

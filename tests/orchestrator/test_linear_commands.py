@@ -14,17 +14,18 @@ import xarray as xr
 from rich.console import Console
 from typer.testing import CliRunner
 
-from orchestrator import exit_status, linear_case
-from orchestrator.assembly import assemble
-from orchestrator.cli import app
-from orchestrator.equilibrium import find_start
+from orchestrator import exit_status
+from orchestrator.cli.main import app
 from orchestrator.errors import EquilibriumError
-from orchestrator.figures.campbell import free_figure
-from orchestrator.fmu_file import FmuStore
+from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.unit import Status, UnitError
+from orchestrator.linear import case as linear_case
+from orchestrator.master.assembly import assemble
+from orchestrator.master.start.equilibrium import find_start
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.unit import Status, UnitError
-from rotor_fmu.train_file import load_train
+from orchestrator.results.figures.campbell import free_figure
+from orchestrator.scenario.file import load_scenario, train_of
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 
 COMMANDS = {
@@ -184,7 +185,7 @@ def test_wrong_input_is_named_and_leaves_nothing(tmp_path, monkeypatch, argument
     assert list(tmp_path.iterdir()) == []
 
 
-OPTIONS = "orchestrator/cli_options.py"
+OPTIONS = "orchestrator/cli/options.py"
 FAILURES = [
     pytest.param(
         EquilibriumError("front: no film at the trial position"),

@@ -2,28 +2,26 @@
 
 import pytest
 
-from orchestrator import (
-    campbell_command,
-    checkpoint,
-    exit_status,
-    result_files,
-    result_folder,
-    run_command,
-)
-from orchestrator.checkpoint_folder import checkpoint_folder
-from orchestrator.comparison import worker
-from orchestrator.comparison.worker import Task
+from orchestrator import exit_status
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.simulate import simulate
+from orchestrator.commands import campbell as campbell_command
+from orchestrator.commands import run as run_command
+from orchestrator.observers import checkpoint
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.scenario_file import load_scenario
-from orchestrator.simulate import simulate
+from orchestrator.results import files as result_files
+from orchestrator.results import folder as result_folder
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario.file import load_scenario
+from orchestrator.study.paper import worker
+from orchestrator.study.paper.worker import Task
 from tests.faults import fault
 from tests.orchestrator.commands import done
 from tests.orchestrator.foreign import call
 from tests.orchestrator.limits import under_limit
 
 FILES, FOLDER, COMMAND = (
-    f"orchestrator/{name}.py" for name in ("result_files", "result_folder", "run_command")
+    f"orchestrator/{name}.py" for name in ("results/files", "results/folder", "commands/run")
 )
 NOT_WRITTEN = exit_status.STATUS[Outcome.NOT_WRITTEN]
 
@@ -85,7 +83,7 @@ def test_a_complete_folder_is_not_marked(short, small_fmus):
     "a disk that is full for HDF5, which ends the process when it cannot close a file",
     "the record is made in memory: an error, and no file",
     broken=(
-        "orchestrator/record_files.py",
+        "orchestrator/results/record_files.py",
         "path.write_bytes(netcdf(record))",
         'record.to_netcdf(path, engine="h5netcdf")',
     ),
@@ -93,7 +91,7 @@ def test_a_complete_folder_is_not_marked(short, small_fmus):
 def test_hdf5_does_not_end_the_process(tmp_path):
     code = """
 import sys, pathlib, numpy, xarray
-from orchestrator.record_files import write_record
+from orchestrator.results.record_files import write_record
 from tests.orchestrator.limits import largest_file
 record = xarray.Dataset({"x": ("time", numpy.random.default_rng(1).random(100_000))})
 try:
@@ -111,7 +109,7 @@ except OSError as error:
     "machine",
     "a disk that is full for some time while checkpoints are written",
     "a warning with file, time and reason; the checkpoint before stays whole, and the run goes on",
-    broken=("orchestrator/checkpoint.py", "self.warn(", "raise OSError("),
+    broken=("orchestrator/observers/checkpoint.py", "self.warn(", "raise OSError("),
 )
 def test_a_checkpoint_that_cannot_be_written(short, small_fmus, monkeypatch):
     write, times = checkpoint.write, []
@@ -180,7 +178,7 @@ def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
     "machine",
     "a read-only folder for the FMUs",
     "exit 2; folder, `FMUs cannot be built there`, reason",
-    broken=("orchestrator/fmu_folder.py", "except OSError as error:", "except ZeroDivisionError as error:"),
+    broken=("orchestrator/fmi/folder.py", "except OSError as error:", "except ZeroDivisionError as error:"),
 )
 def test_fmus_that_cannot_be_built(short):
     result, _ = run(short, "/proc/fmus")
@@ -193,7 +191,7 @@ def test_fmus_that_cannot_be_built(short):
     "a full disk in one run of `compare`",
     "that run is `not-written`, with folder and reason; the others go on",
     broken=(
-        "orchestrator/comparison/worker.py",
+        "orchestrator/study/paper/worker.py",
         "except NotWrittenError as error:",
         "except ZeroDivisionError as error:",
     ),
@@ -215,7 +213,7 @@ def test_a_run_of_compare_that_cannot_write(small_fmus, tmp_path, monkeypatch):
     "machine",
     "a full disk when an investigation of the linearised train is written",
     "exit 13; folder, needed and free room; no folder",
-    broken=("orchestrator/linear_case.py", "room_for(data, request.folder), ", ""),
+    broken=("orchestrator/linear/case.py", "room_for(data, request.folder), ", ""),
 )
 def test_a_full_disk_at_the_end_of_a_linear_command(tmp_path, monkeypatch):
     monkeypatch.setattr(campbell_command, "write_results", under_limit(100, campbell_command.write_results))

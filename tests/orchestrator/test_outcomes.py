@@ -7,16 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from orchestrator import assembly, exit_status
-from orchestrator.coupling import LinearImplicit
-from orchestrator.journal_state import with_state
+from orchestrator import exit_status
+from orchestrator.case.simulate import Result, Timing, simulate
+from orchestrator.fmi.unit import Status, UnitError
+from orchestrator.master import assembly
+from orchestrator.master.coupling import LinearImplicit
+from orchestrator.master.journal_in_words import with_state
+from orchestrator.master.stepping import NotFinite, StepCounts, Stepper
+from orchestrator.master.time_loop import RunEnd
 from orchestrator.outcome import Outcome
-from orchestrator.run import RunEnd
-from orchestrator.simulate import Result, Timing, simulate
-from orchestrator.stepping import NotFinite, StepCounts, Stepper
-from orchestrator.summary import summarise
-from orchestrator.summary_table import to_text
-from orchestrator.unit import Status, UnitError
+from orchestrator.results.summary import summarise
+from orchestrator.results.summary_table import to_text
 from tests.faults import fault
 from tests.orchestrator import synthetic_record
 from tests.orchestrator.oscillator import released
@@ -71,7 +72,7 @@ def test_old_numbers_stay():
     "unit",
     "a unit refuses a step for good",
     "step-refused, exit 4; bearing, time, its reason, its last state",
-    broken=("orchestrator/unit_error.py", "if status is not Status.DISCARD:", "if True:"),
+    broken=("orchestrator/fmi/unit_error.py", "if status is not Status.DISCARD:", "if True:"),
 )
 def test_a_unit_that_refuses_for_good(fmus, tmp_path, monkeypatch):
     with_springs(monkeypatch, "rear", refuse_after=0.0105)
@@ -87,7 +88,7 @@ def test_a_unit_that_refuses_for_good(fmus, tmp_path, monkeypatch):
     "unit",
     "an FMU ends with an error that it cannot recover from",
     "unit-failed, exit 5; bearing, time, last state; record up to there",
-    broken=("orchestrator/unit_error.py", "Outcome.UNIT_FAILED", "Outcome.STEP_REFUSED"),
+    broken=("orchestrator/fmi/unit_error.py", "Outcome.UNIT_FAILED", "Outcome.STEP_REFUSED"),
 )
 def test_a_unit_that_breaks(fmus, tmp_path, monkeypatch):
     with_springs(monkeypatch, "rear", break_after=0.0105)
@@ -103,7 +104,7 @@ def test_a_unit_that_breaks(fmus, tmp_path, monkeypatch):
     "film",
     "a film that fails for one step",
     "the step is taken back and halved, the run finishes; discarded steps are counted",
-    broken=("orchestrator/stepping.py", "if error.status is not Status.DISCARD or", "if True or"),
+    broken=("orchestrator/master/stepping.py", "if error.status is not Status.DISCARD or", "if True or"),
 )
 def test_a_film_that_fails_for_one_step(fmus, tmp_path, monkeypatch):
     window = {"refuse_from": 0.0102, "refuse_to": 0.0112, "refuse_over": 6e-4}
@@ -119,7 +120,7 @@ def test_a_film_that_fails_for_one_step(fmus, tmp_path, monkeypatch):
     "coupling",
     "a step misses its tolerance at every length",
     "tolerance-missed, exit 9; time, the worst bearing and its last state, the defect, what is allowed",
-    broken=("orchestrator/stepping.py", "size > self._tolerance:", "False:"),
+    broken=("orchestrator/master/stepping.py", "size > self._tolerance:", "False:"),
 )
 def test_a_tolerance_that_cannot_be_met(fmus, tmp_path):
     blade = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -135,7 +136,7 @@ def test_a_tolerance_that_cannot_be_met(fmus, tmp_path):
     "coupling",
     "a journal's motion is no longer a number",
     "not-finite, exit 6; the bearing is named, the step taken back",
-    broken=("orchestrator/stepping.py", "if not (math.isfinite(size)", "if not (True"),
+    broken=("orchestrator/master/stepping.py", "if not (math.isfinite(size)", "if not (True"),
 )
 def test_a_motion_that_is_not_finite_names_the_bearing(store, toy_fmus):
     system = released(store, toy_fmus)
@@ -171,7 +172,7 @@ def test_a_rotor_that_fails_shows_the_bearing_farthest_out(store, toy_fmus):
     "process",
     "a run that did not finish is read by a script",
     "summary.json and summary.txt: outcome, exit status, message, advice",
-    broken=("orchestrator/summary.py", "exit_status=of_outcome(result.outcome)", "exit_status=0"),
+    broken=("orchestrator/results/summary.py", "exit_status=of_outcome(result.outcome)", "exit_status=0"),
 )
 def test_the_summary_says_outcome_status_message_and_advice(outcome):
     record = synthetic_record.record(end=1.1)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from fmus.build import build
+from fmus.build.builder import build
+from orchestrator.case.simulate import simulate
 from orchestrator.errors import PortError, ScenarioError
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 from orchestrator.ssp.simulate import SspRun
 from tests.faults import fault
@@ -60,7 +60,7 @@ def test_it_travels_in_the_ssp(own, fmus, tmp_path):
     "unit",
     "a bearing of one's own without the port's variables, or with others",
     "exit 2; every variable that is missing or differs, the likely spelling",
-    broken=("orchestrator/system.py", "        check_port(rotor, bearings)", "        pass"),
+    broken=("orchestrator/master/system.py", "        check_port(rotor, bearings)", "        pass"),
 )
 def test_all_that_is_missing_or_different_is_listed(own, fmus, tmp_path):
     bad = tmp_path / "bad.fmu"

@@ -7,18 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from orchestrator import checkpoint, exit_status
-from orchestrator.checkpoint import CheckpointError
-from orchestrator.checkpoint_folder import checkpoint_folder
-from orchestrator.claim import claim
+from orchestrator import exit_status
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.observers import checkpoint
+from orchestrator.observers.checkpoint import CheckpointError
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record
-from orchestrator.result_folder import ResultFolderError, check_folder, result_folder
+from orchestrator.results.folder import ResultFolderError, check_folder, result_folder
+from orchestrator.results.folder_lock import claim
+from orchestrator.results.record_files import read_record
 from tests.faults import fault
 from tests.orchestrator.commands import command, done
 from tests.orchestrator.foreign import call
 
-FOLDER, CLAIM = "orchestrator/result_folder.py", "orchestrator/claim.py"
+FOLDER, CLAIM = "orchestrator/results/folder.py", "orchestrator/results/folder_lock.py"
 SCENARIO = 'train = "small"\nend = 0.3\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
 
 
@@ -44,7 +45,7 @@ def whole(small_fmus, tmp_path_factory):
                 "Ctrl-C in a run with checkpoints",
                 "exit 130, `interrupted`; the record in `-partial`; `resume` from that very step gives the "
                 "record of an undisturbed run, to the bit",
-                broken=("orchestrator/run.py", "save(k, time, stepper, True)", "pass"),
+                broken=("orchestrator/master/time_loop.py", "save(k, time, stepper, True)", "pass"),
             ),
         ),
         pytest.param(
@@ -54,7 +55,7 @@ def whole(small_fmus, tmp_path_factory):
                 "process",
                 "SIGTERM in a run with checkpoints, as batch systems send it",
                 "exit 143, `terminated`; otherwise as Ctrl-C",
-                broken=("orchestrator/interrupt.py", "    signal.SIGTERM: Terminated,\n", ""),
+                broken=("orchestrator/master/interrupt.py", "    signal.SIGTERM: Terminated,\n", ""),
             ),
         ),
     ],
@@ -85,13 +86,13 @@ def test_a_signal_ends_a_run_that_can_go_on(number, outcome, whole, small_fmus, 
     "process",
     "SIGTERM before the time loop, as when FMUs are built or films compiled",
     "exit 143, `terminated; nothing was written`; what was extracted is removed",
-    broken=("orchestrator/cli_options.py", "with handled(raise_at_once):", "if True:"),
+    broken=("orchestrator/cli/options.py", "with handled(raise_at_once):", "if True:"),
 )
 def test_a_signal_before_the_run(small_fmus, tmp_path):
     code = """
 import os, signal, sys
-from orchestrator import fmu_folder
-from orchestrator.cli import main
+from orchestrator.fmi import folder as fmu_folder
+from orchestrator.cli.main import main
 fmu_folder.refresh = lambda *_: os.kill(os.getpid(), signal.SIGTERM)
 sys.argv[0] = "bladeloss"
 main()
@@ -213,7 +214,11 @@ def test_a_kill_while_results_are_written(tmp_path):
     "process",
     "a checkpoint that is cut short, changed or empty",
     "exit 2; file, `not a readable checkpoint`",
-    broken=("orchestrator/checkpoint.py", "except Exception as error:", "except ZeroDivisionError as error:"),
+    broken=(
+        "orchestrator/observers/checkpoint.py",
+        "except Exception as error:",
+        "except ZeroDivisionError as error:",
+    ),
 )
 def test_a_damaged_checkpoint(damage, tmp_path):
     import numpy as np

@@ -2,7 +2,7 @@
 
 import pytest
 
-from orchestrator.result_folder import (
+from orchestrator.results.folder import (
     PARTIAL,
     ResultFolderError,
     check_folder,
@@ -33,7 +33,7 @@ def test_a_new_folder_appears_with_its_parents(tmp_path):
     "an error while results are written",
     "no folder, and no parent that was made for it",
     broken=(
-        "orchestrator/result_folder.py",
+        "orchestrator/results/folder.py",
         "        shutil.rmtree(temporary, ignore_errors=True)",
         "        pass",
     ),
@@ -73,7 +73,7 @@ def test_an_earlier_result_survives_a_failure(tmp_path):
     "`--out` names a folder with other files",
     "exit 2; `no earlier result`; nothing is overwritten",
     broken=(
-        "orchestrator/result_folder.py",
+        "orchestrator/results/folder.py",
         "if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():",
         "if False:",
     ),

@@ -6,14 +6,14 @@ from dataclasses import replace
 import pytest
 
 from orchestrator.errors import ScenarioError
-from orchestrator.parameters import rotor_parameters
-from orchestrator.scenario_file import (
+from orchestrator.scenario.file import (
     bundled_scenarios,
     load_scenario,
     scenario_toml,
     train_of,
     with_overrides,
 )
+from orchestrator.scenario.parameters import rotor_parameters
 
 GOOD = """
 title = "test"
@@ -149,7 +149,7 @@ def test_a_tolerance_belongs_to_the_step_and_coupling_beside_it():
 
 
 def test_a_train_is_found_beside_the_scenario(tmp_path, scenario_file):
-    from rotor_fmu.train_file import DATA
+    from rotor_fmu.train.file import DATA
 
     (tmp_path / "mine").mkdir()
     for file in (DATA / "small").glob("*.*"):

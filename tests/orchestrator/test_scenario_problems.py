@@ -3,9 +3,9 @@
 import pytest
 
 from orchestrator.errors import ScenarioError
-from orchestrator.scenario_file import load_scenario, parse_scenario
-from orchestrator.scenario_problems import record_size
-from rotor_fmu.train_file import load_train
+from orchestrator.scenario.file import load_scenario, parse_scenario
+from orchestrator.scenario.problems import record_size
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 
 TEXT = """\
@@ -27,7 +27,7 @@ rows = 8
 [record]
 interval = 5e-4
 """
-PROBLEMS, MODEL = "orchestrator/scenario_problems.py", "orchestrator/scenario.py"
+PROBLEMS, MODEL = "orchestrator/scenario/problems.py", "orchestrator/scenario/scenario.py"
 
 
 def case(old, new, line, words, name, outcome, *, broken):
@@ -152,7 +152,7 @@ def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     train = load_train("small")
     size = record_size(scenario, train)
     assert size == pytest.approx(400 * (2 * 240 + train.nodes * 16))
-    monkeypatch.setattr("orchestrator.scenario_problems._memory", lambda: size / 3)
+    monkeypatch.setattr("orchestrator.scenario.problems._memory", lambda: size / 3)
     with pytest.raises(ScenarioError) as info:
         parse_scenario(TEXT, tmp_path, "my.toml")
     (problem,) = info.value.problems
@@ -163,7 +163,7 @@ def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     "input",
     "a train that does not exist",
     "exit 2; line, the likely name, all bundled trains",
-    broken=("rotor_fmu/train_file.py", "{choice(path.name, bundled_trains())}", "none"),
+    broken=("rotor_fmu/train/file.py", "{choice(path.name, bundled_trains())}", "none"),
 )
 def test_a_train_that_does_not_exist(tmp_path):
     words = r"^my.toml: line 1: train = 'smal': .*smal: no such train; did you mean 'small'\? allowed are"
@@ -175,7 +175,7 @@ def test_a_train_that_does_not_exist(tmp_path):
     "input",
     "a scenario that does not exist",
     "exit 2; the likely name, all bundled scenarios",
-    broken=("orchestrator/scenario_file.py", "elif not path.exists():", "elif False:"),
+    broken=("orchestrator/scenario/file.py", "elif not path.exists():", "elif False:"),
 )
 def test_a_scenario_that_does_not_exist():
     with pytest.raises(

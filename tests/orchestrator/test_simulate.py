@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from orchestrator import simulate as simulate_module
+from orchestrator.case import simulate as simulate_module
+from orchestrator.case.simulate import Stage, simulate
 from orchestrator.errors import FmuError
+from orchestrator.master.stepping import DEEPEST
 from orchestrator.outcome import Outcome
-from orchestrator.record_files import read_record, write_record
-from orchestrator.scenario_file import load_scenario
-from orchestrator.simulate import Stage, simulate
-from orchestrator.stepping import DEEPEST
+from orchestrator.results.record_files import read_record, write_record
+from orchestrator.scenario.file import load_scenario
 from tests.faults import fault
 from tests.orchestrator.toy_train import GRADE, SPEED, STIFFNESS, WHEEL_MASS, toy_fmu_folder, toy_scenario
 
@@ -106,7 +106,7 @@ def test_depths_mix(fmus, tmp_path):
     "film",
     "a film that fails for good at one bearing",
     "film-failed, exit 11; bearing, time, eccentricity ratio, tilts, least gap; record up to there",
-    broken=("orchestrator/unit_error.py", "elif FILM_FAILED in reason:", "elif False:"),
+    broken=("orchestrator/fmi/unit_error.py", "elif FILM_FAILED in reason:", "elif False:"),
 )
 def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, tmp_path):
     result = simulate(toy_scenario(tmp_path, event={**BLADE, "unbalance": 1e3}), fmus)
@@ -133,7 +133,7 @@ def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, t
     "film",
     "a bearing that does not carry its static load",
     "no-equilibrium, exit 3; bearing, load, what it carries; an empty record",
-    broken=("orchestrator/film_position.py", "    if short.any():", "    if False:"),
+    broken=("orchestrator/master/start/journal_position.py", "    if short.any():", "    if False:"),
 )
 def test_without_equilibrium_there_is_an_empty_record_and_a_reason(fmus, tmp_path):
     scenario = toy_scenario(tmp_path)
@@ -221,7 +221,7 @@ def test_a_failed_write_leaves_nothing(finished, tmp_path, monkeypatch):
     def fail(*_args, **_kwargs):
         raise OSError("disk full")
 
-    monkeypatch.setattr("orchestrator.record_files.netcdf", fail)
+    monkeypatch.setattr("orchestrator.results.record_files.netcdf", fail)
     with pytest.raises(OSError, match="disk full"):
         write_record(finished.record, tmp_path)
     assert list(tmp_path.iterdir()) == []

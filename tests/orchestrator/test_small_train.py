@@ -6,14 +6,14 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 
-from fmus.archive import write_archive
-from fmus.build import build
-from orchestrator.assembly import assemble
-from orchestrator.coupling import LinearImplicit
-from orchestrator.equilibrium import apply_start, find_start
+from fmus.build.archive import write_archive
+from fmus.build.builder import build
+from orchestrator.case.simulate import simulate
+from orchestrator.master.assembly import assemble
+from orchestrator.master.coupling import LinearImplicit
+from orchestrator.master.start.equilibrium import apply_start, find_start
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import simulate
+from orchestrator.scenario.file import load_scenario, train_of
 from tests.faults import fault
 
 DEPTHS = ("v1", "v2", "v3")
@@ -179,7 +179,7 @@ def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
     without = simulate(small(**changes), fmus)
     assert without.outcome is Outcome.FINISHED
     assert without.counts.rejected > 0 or without.counts.iterations > without.counts.accepted
-    monkeypatch.setattr("orchestrator.fmu_file.is_memoryless", lambda _root: False)
+    monkeypatch.setattr("orchestrator.fmi.file.is_memoryless", lambda _root: False)
     marked = simulate(small(**changes), fmus)
     assert marked.counts == without.counts
     assert marked.record.identical(without.record)
@@ -189,7 +189,7 @@ def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
     "unit",
     "an FMU built from other sources than those of the process",
     "no-equilibrium, exit 3; the bearing, `FMU refused`, the package, and to rebuild",
-    broken=("fmus/loader.py", "self._say(Fmi2Status.warning)", "pass"),
+    broken=("fmus/unit/loader.py", "self._say(Fmi2Status.warning)", "pass"),
 )
 def test_an_fmu_of_other_sources_is_refused_with_its_reason(fmus, tmp_path):
     assert simulate(small(depth="v3", **CALM), fmus).outcome is Outcome.FINISHED  # its sources are loaded now

@@ -4,8 +4,8 @@ import sys
 
 import pytest
 
-from fmus.build import build
-from orchestrator.scenario_file import load_scenario, train_of
+from fmus.build.builder import build
+from orchestrator.scenario.file import load_scenario, train_of
 from tests.soak import GROWTH, growth, soak
 
 

@@ -5,18 +5,18 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 
-from fmus.archive import write_archive
-from fmus.build import build
+from fmus.build.archive import write_archive
+from fmus.build.builder import build
+from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.system import Wiring
 from orchestrator.outcome import Outcome
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Execution, simulate
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
-from orchestrator.system import Wiring
-from orchestrator.unit import Unit
 
 SHORT = {"end": 0.012, "event": {"time": 0.00613}, "depth": "v3", "depth_at": {"rear": "v2"}}
 

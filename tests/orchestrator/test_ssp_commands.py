@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from orchestrator import exit_status
-from orchestrator.cli import app
-from orchestrator.record_files import read_record
+from orchestrator.cli.main import app
+from orchestrator.results.record_files import read_record
 
 SCENARIO = """\
 train = "small"

@@ -26,7 +26,7 @@ def case(member, old, new, words, name, outcome, *, broken):
             "unbalance.at.wheel-2.phase = 90.0; allowed is a number of at most 6.3 rad; did you give deg",
             "an SSP with a phase in degrees",
             "exit 2; wheel, value, range, the likely slip",
-            broken=("orchestrator/scenario.py", "Field(ge=-6.3, le=6.3,", "Field("),
+            broken=("orchestrator/scenario/scenario.py", "Field(ge=-6.3, le=6.3,", "Field("),
         ),
         case(
             "resources/front.ssv",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from orchestrator import statistics, windows
+from orchestrator.results import statistics, windows
 from tests.orchestrator import synthetic_record
 
 MEAN, SWING = 1.8e6, 0.3e6

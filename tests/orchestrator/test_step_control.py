@@ -5,14 +5,14 @@ import itertools
 import numpy as np
 import pytest
 
-from orchestrator.coupling import LinearImplicit, Newton
+from orchestrator.case.simulate import simulate
 from orchestrator.errors import FmuError
+from orchestrator.master.coupling import LinearImplicit, Newton
+from orchestrator.master.stepping import DEEPEST, StepFailure, Stepper, ToleranceMissed
+from orchestrator.master.time_loop import Course
 from orchestrator.outcome import Outcome
-from orchestrator.run import Course
-from orchestrator.simulate import simulate
-from orchestrator.stepping import DEEPEST, StepFailure, Stepper, ToleranceMissed
-from orchestrator.summary import summarise
-from orchestrator.summary_table import to_text
+from orchestrator.results.summary import summarise
+from orchestrator.results.summary_table import to_text
 from tests.faults import fault
 from tests.orchestrator.oscillator import DISPLACEMENT, begin, exact_motion, make_system, released
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
@@ -100,7 +100,7 @@ def test_newton_iterates_instead_of_halving(store, toy_fmus):
     "an iteration that does not converge",
     "the step is taken back and halved",
     broken=(
-        "orchestrator/stepping.py",
+        "orchestrator/master/stepping.py",
         "except NotConverged as error:",
         "except ZeroDivisionError as error:",
     ),
@@ -138,7 +138,7 @@ def test_a_refused_step_is_halved_there_and_steps_grow_again(store, toy_fmus):
     "a film that fails for good",
     "the step is halved to a thousandth, then the run ends at the last accepted step, with the unit's reason",
     broken=(
-        "orchestrator/stepping.py",
+        "orchestrator/master/stepping.py",
         "            if self.level == DEEPEST:\n                raise\n",
         "            if self.level == 0:\n                raise\n",
     ),
@@ -205,7 +205,7 @@ def test_a_macro_step_is_parted_at_an_event_inside():
     "an FMU without states in a coupling that takes steps back",
     "FmuError; unit, `canGetAndSetFMUstate`, couplings that do without",
     broken=(
-        "orchestrator/rollback.py",
+        "orchestrator/master/rollback.py",
         "        if self._fixed:\n            names",
         "        if False:\n            names",
     ),

@@ -5,11 +5,11 @@ import json
 import pytest
 import xarray as xr
 
+from orchestrator.case.simulate import Result, Timing
 from orchestrator.outcome import Outcome
-from orchestrator.quantities import FORCE, GAP, MOMENT
-from orchestrator.simulate import Result, Timing
-from orchestrator.summary import summarise
-from orchestrator.summary_table import to_text
+from orchestrator.results.quantities import FORCE, GAP, MOMENT
+from orchestrator.results.summary import summarise
+from orchestrator.results.summary_table import to_text
 from tests.orchestrator import synthetic_record
 
 TIMING = Timing(2.0, 3.0, 60.0, 12.0, 5.0, 3.0, 4.0)

@@ -5,9 +5,9 @@ import pytest
 
 from fmus import port
 from orchestrator.errors import PortError
-from orchestrator.graph import Connection, Graph
-from orchestrator.system import RESPONSE, System, Wiring, port_connections
-from orchestrator.unit import Unit
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.graph import Connection, Graph
+from orchestrator.master.system import RESPONSE, System, Wiring, port_connections
 from tests.orchestrator.oscillator import released
 
 

@@ -7,20 +7,22 @@ from zipfile import ZipFile
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from fmus.archive import write_archive
-from fmus.build import bearing_recipe, rotor_recipe, write
-from fmus.own import is_own
-from orchestrator import checkpoint, exit_status, trust
-from orchestrator.checkpoint_folder import checkpoint_folder
-from orchestrator.scenario_file import load_scenario
+from fmus.build.archive import write_archive
+from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from fmus.build.own import is_own
+from orchestrator import exit_status
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.fmi import trust
+from orchestrator.fmi.trust import UntrustedError, require_trust
+from orchestrator.observers import checkpoint
+from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
-from orchestrator.trust import UntrustedError, require_trust
-from rotor_fmu.train_file import load_train
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.foreign import call, with_entry, with_text
 from tests.orchestrator.test_own_bearing import EXAMPLE
 
-OWN, TRUST = "fmus/own.py", "orchestrator/trust.py"
+OWN, TRUST = "fmus/build/own.py", "orchestrator/fmi/trust.py"
 
 
 @pytest.fixture(scope="module")
@@ -50,14 +52,14 @@ def never(*_, **__):
 
 @pytest.fixture
 def nothing_runs(monkeypatch):
-    monkeypatch.setattr("orchestrator.unit.Unit.__init__", never)
+    monkeypatch.setattr("orchestrator.fmi.unit.Unit.__init__", never)
 
 
 @fault(
     "archive",
     "an FMU of somebody else, without terminal and without `--trust`",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/run_command.py", "require_trust(own_bearings(scenario)", "require_trust({}"),
+    broken=("orchestrator/commands/run.py", "require_trust(own_bearings(scenario)", "require_trust({}"),
 )
 def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_path, nothing_runs):
     arguments = ("run", short, "--depth-at", f"rear={spring}", "--fmus", small_fmus, "--out", tmp_path / "o")
@@ -69,7 +71,7 @@ def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_p
     "archive",
     "an FMU of somebody else in an investigation of the linearised train",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/linear_case.py", "require_trust(own_bearings(self.scenario)", "require_trust({}"),
+    broken=("orchestrator/linear/case.py", "require_trust(own_bearings(self.scenario)", "require_trust({}"),
 )
 def test_linear_commands_ask_as_well(spring, short, small_fmus, tmp_path, nothing_runs):
     short.write_text(short.read_text() + f'[depth_at]\nrear = "{spring}"\n')
@@ -80,7 +82,11 @@ def test_linear_commands_ask_as_well(spring, short, small_fmus, tmp_path, nothin
     "archive",
     "an export that would run an FMU of somebody else to find the start",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/ssp/export_command.py", "require_trust(own_bearings(scenario)", "require_trust({}"),
+    broken=(
+        "orchestrator/commands/export_ssp.py",
+        "require_trust(own_bearings(scenario)",
+        "require_trust({}",
+    ),
 )
 def test_an_export_asks_as_well(spring, short, small_fmus, tmp_path, nothing_runs):
     short.write_text(short.read_text() + f'[depth_at]\nrear = "{spring}"\n')
@@ -100,7 +106,7 @@ def foreign_ssp(ssp, bearing, target):
     "archive",
     "an SSP in which an FMU has our name and GUID, but other code",
     "exit 2; archive, FMU in it, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/ssp/run_command.py", "require_trust(prepared.fmus", "require_trust({}"),
+    broken=("orchestrator/commands/run_ssp.py", "require_trust(prepared.fmus", "require_trust({}"),
 )
 def test_an_ssp_with_doctored_code(small_ssp, small_fmus, tmp_path, nothing_runs):
     script = next(
@@ -209,7 +215,7 @@ def test_a_resumed_run_knows_what_was_trusted(spring, short, small_fmus, tmp_pat
     mine, out = tmp_path / "mine.fmu", tmp_path / "o"
     shutil.copy(spring, mine)
     options = ("--no-figures", "--fmus", small_fmus, "--out", out, "--checkpoint", 0.001, "--trust")
-    monkeypatch.setattr("orchestrator.run_command.discard", lambda _: None)  # as if it had been killed
+    monkeypatch.setattr("orchestrator.commands.run.discard", lambda _: None)  # as if it had been killed
     assert call("run", short, "--depth-at", f"rear={mine}", *options).exit_code == 0
     assert len(checkpoint.read(checkpoint_folder(out)).about["trusted"]) == 1
     assert call("resume", out).exit_code == 0

@@ -5,7 +5,7 @@ import pytest
 
 from fmus import port
 from orchestrator.errors import FmuError, PortError
-from orchestrator.unit import Block, Status, Unit, UnitError
+from orchestrator.fmi.unit import Block, Status, Unit, UnitError
 from tests.faults import fault
 
 
@@ -119,7 +119,7 @@ def test_the_store_leaves_nothing_behind(store, toy_fmus):
     "unit",
     "libraries of pythonfmu that write to freed memory when the process ends",
     "they are ended before",
-    broken=("orchestrator/fmu_file.py", "            file.end_library()", "            pass"),
+    broken=("orchestrator/fmi/file.py", "            file.end_library()", "            pass"),
 )
 def test_the_store_ends_the_libraries_that_were_used(store, toy_fmus):
     """A library of pythonfmu that ends at the exit of the process only writes to freed memory."""
@@ -139,7 +139,7 @@ def test_the_store_ends_the_libraries_that_were_used(store, toy_fmus):
     "an FMU that is not there",
     "FmuError; file, how to build it",
     broken=(
-        "orchestrator/fmu_file.py",
+        "orchestrator/fmi/file.py",
         "except FileNotFoundError as error:",
         "except ZeroDivisionError as error:",
     ),
@@ -160,7 +160,7 @@ def test_a_file_that_is_no_fmu_is_named(store, tmp_path):
     "a parameter that an FMU does not have",
     "PortError; file, unit, variable",
     broken=(
-        "orchestrator/unit.py",
+        "orchestrator/fmi/unit.py",
         'raise PortError(f"{self.file.path}: {self.name} has no variable {name!r}") from None',
         "raise",
     ),

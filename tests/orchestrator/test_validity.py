@@ -8,7 +8,7 @@ import xarray as xr
 
 from orchestrator.exit_status import of_outcome
 from orchestrator.outcome import Outcome
-from orchestrator.validity import UNRESOLVED, unresolved
+from orchestrator.results.validity import UNRESOLVED, unresolved
 from tests.faults import fault
 
 
@@ -25,7 +25,7 @@ def _record(defect, force=1.0):
     "coupling",
     "an explicit coupling that is unstable and yet reaches its end",
     "unresolved, exit 10; share of the forces missed, the worst bearing, when and in which state",
-    broken=("orchestrator/validity.py", "if share <= UNRESOLVED:", "if True:"),
+    broken=("orchestrator/results/validity.py", "if share <= UNRESOLVED:", "if True:"),
 )
 @pytest.mark.parametrize(("share", "fails"), [(0.99 * UNRESOLVED, False), (1.01 * UNRESOLVED, True)])
 def test_the_limit_is_a_share_of_the_forces(share, fails):

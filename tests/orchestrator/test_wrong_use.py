@@ -4,10 +4,10 @@ import pytest
 from typer.testing import CliRunner
 
 from orchestrator import exit_status
-from orchestrator.cli import app
+from orchestrator.cli.main import app
 from tests.faults import fault
 
-ERRORS = "orchestrator/cli_errors.py"
+ERRORS = "orchestrator/cli/wrong_use.py"
 
 
 def case(arguments, words, name, outcome, *, broken):
@@ -25,35 +25,35 @@ CASES = [
         "run --coupling linear-implict",
         "--coupling linear-implict: did you mean 'linear-implicit'? allowed are",
         "--coupling misspelt", "exit 2; one line: option, value, the likely spelling, all couplings",
-        broken=("orchestrator/cli.py", 'parser=one_of(Coupling, "--coupling"),', ""),
+        broken=("orchestrator/cli/main.py", 'parser=one_of(Coupling, "--coupling"),', ""),
     ),
     case(
         "run --reduction isr", "--reduction isr: did you mean 'irs'? allowed are irs, irs-plain, guyan",
         "--reduction misspelt", "exit 2; one line: option, value, the likely spelling, all reductions",
-        broken=("orchestrator/cli.py", 'parser=one_of(Reduction, "--reduction"),', ""),
+        broken=("orchestrator/cli/main.py", 'parser=one_of(Reduction, "--reduction"),', ""),
     ),
     case(
         "campbell --depth V2", "--depth V2: did you mean 'v2'? allowed are v1, v2, v3",
         "--depth V2 of a linear analysis", "exit 2; one line: option, value, the likely spelling",
-        broken=("orchestrator/cli_linear.py", 'parser=one_of(Depth, "--depth"),', ""),
+        broken=("orchestrator/cli/linear.py", 'parser=one_of(Depth, "--depth"),', ""),
     ),
     case(
         "run --depth-at LP2-front=V2",
         "--depth-at LP2-front=V2: not NAME=DEPTH; of depths did you mean 'v2'?",
         "--depth-at with an unknown depth", "exit 2; one line: option, value, the likely one, all depths",
-        broken=("orchestrator/cli.py", "(fmu or depth in list(Depth))", "True"),
+        broken=("orchestrator/cli/main.py", "(fmu or depth in list(Depth))", "True"),
     ),
     case(
         "run small --depth-at frnt=v2",
         "small: depth_at.frnt: no such bearing; did you mean 'front'? allowed are front",
         "--depth-at a bearing that the train lacks", "exit 2; one line: the likely name, all bearings",
-        broken=("orchestrator/scenario_file.py", "problems += name_problems(raw, train)", "pass"),
+        broken=("orchestrator/scenario/file.py", "problems += name_problems(raw, train)", "pass"),
     ),
     case(
         "run small --bearing frnt",
         "--bearing frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "--bearing that the train lacks", "exit 2; one line: the likely name, all bearings",
-        broken=("orchestrator/run_command.py", "and request.bearing not in names:", "and False:"),
+        broken=("orchestrator/commands/run.py", "and request.bearing not in names:", "and False:"),
     ),
     case(
         "run --dept v2", "No such option: --dept",
@@ -63,7 +63,7 @@ CASES = [
     case(
         "rn small", "No such command 'rn'. Did you mean 'run'?",
         "a misspelt command", "exit 2; one line: the command, the likely one",
-        broken=("orchestrator/cli.py", "    cls=Commands,\n", ""),
+        broken=("orchestrator/cli/main.py", "    cls=Commands,\n", ""),
     ),
     case(
         "run small --end soon", "'--end'",
@@ -76,7 +76,7 @@ CASES = [
 @pytest.mark.parametrize(("arguments", "words"), CASES)
 def test_wrong_use_is_one_line_and_leaves_nothing(tmp_path, monkeypatch, arguments, words):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("orchestrator.run_command.ensure_fmus", lambda *_: pytest.fail("went on"))
+    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: pytest.fail("went on"))
     result = CliRunner().invoke(app, arguments, prog_name="bladeloss")
     assert result.exit_code == exit_status.INPUT_ERROR, result.output
     (line,) = result.output.splitlines()

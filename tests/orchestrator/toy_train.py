@@ -3,7 +3,7 @@
 import math
 import shutil
 
-from orchestrator.scenario_file import load_scenario
+from orchestrator.scenario.file import load_scenario
 
 JOURNAL_MASS, INNER_MASS, GRAVITY = 100.0, 400.0, 9.80665
 SHAFT_STIFFNESS, SHAFT_DAMPING = 4e6, 1e3

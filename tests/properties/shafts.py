@@ -7,7 +7,7 @@ import math
 import numpy as np
 from hypothesis import strategies as st
 
-from rotor_fmu.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
+from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 from tests.properties.journals import logarithmic
 
 STEEL = Material("steel", 2.05e11, 0.3, 7850.0)

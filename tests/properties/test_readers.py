@@ -10,19 +10,19 @@ import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
-from fmus.build import build
-from orchestrator import checkpoint
-from orchestrator.checkpoint import CheckpointError
+from fmus.build.builder import build
+from orchestrator.case.simulate import Execution, Stage, simulate
 from orchestrator.errors import FmuError, OrchestratorError, ScenarioError
-from orchestrator.fmu_file import FmuStore
-from orchestrator.scenario import Scenario
-from orchestrator.scenario_file import load_scenario, train_of
-from orchestrator.simulate import Execution, Stage, simulate
+from orchestrator.fmi.file import FmuStore
+from orchestrator.observers import checkpoint
+from orchestrator.observers.checkpoint import CheckpointError
+from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.scenario import Scenario
 from orchestrator.ssp.export import export
 from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
-from rotor_fmu.train import Train
-from rotor_fmu.train_file import DATA, TrainFileError, load_train
+from rotor_fmu.train.file import DATA, TrainFileError, load_train
+from rotor_fmu.train.train import Train
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 from tests.properties.damage import bytes_of, lines_of, unzipped, zipped
@@ -60,7 +60,11 @@ def said(error: Exception, *names: str) -> None:
     "input",
     "a scenario damaged anywhere",
     "read, or ScenarioError naming the file and each problem",
-    broken=("rotor_fmu/toml_source.py", "except UnicodeDecodeError as error", "except KeyError as error"),
+    broken=(
+        "rotor_fmu/train/toml_source.py",
+        "except UnicodeDecodeError as error",
+        "except KeyError as error",
+    ),
 )
 @given(st.one_of(lines_of(SCENARIO).map(str.encode), bytes_of(SCENARIO.encode())))
 @settings(max_examples=400)
@@ -80,7 +84,7 @@ def test_damaged_scenario(content):
     "input",
     "train.toml or shaft.csv damaged anywhere",
     "read, or TrainFileError naming the file and each problem",
-    broken=("rotor_fmu/train_file.py", "except (ValueError, OSError) as", "except OSError as"),
+    broken=("rotor_fmu/train/file.py", "except (ValueError, OSError) as", "except OSError as"),
 )
 @given(st.data())
 @settings(max_examples=300)
@@ -156,7 +160,7 @@ def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
     "archive",
     "an FMU damaged in its description or as an archive",
     "read, or FmuError naming the FMU; nothing extracted is left",
-    broken=("orchestrator/fmu_file.py", "except Exception as", "except KeyError as"),
+    broken=("orchestrator/fmi/file.py", "except Exception as", "except KeyError as"),
 )
 @given(st.data())
 @settings(max_examples=150)
@@ -203,7 +207,7 @@ def interrupted(toy_fmus, tmp_path_factory):
     "process",
     "a checkpoint damaged anywhere",
     "CheckpointError naming the file",
-    broken=("orchestrator/checkpoint.py", "except Exception as error", "except KeyError as error"),
+    broken=("orchestrator/observers/checkpoint.py", "except Exception as error", "except KeyError as error"),
 )
 @given(st.data())
 @settings(max_examples=60)

@@ -5,12 +5,12 @@ import pytest
 from hypothesis import assume, event, given, settings
 from hypothesis import strategies as st
 
-from fmus.build import build
+from fmus.build.builder import build
+from orchestrator.case.simulate import simulate
 from orchestrator.errors import OrchestratorError, ScenarioError
 from orchestrator.outcome import Outcome
-from orchestrator.scenario import COUPLINGS, DEPTHS, REDUCTIONS, Scenario
-from orchestrator.scenario_file import load_scenario, parse_scenario, scenario_toml, train_of
-from orchestrator.simulate import simulate
+from orchestrator.scenario.file import load_scenario, parse_scenario, scenario_toml, train_of
+from orchestrator.scenario.scenario import COUPLINGS, DEPTHS, REDUCTIONS, Scenario
 from tests.faults import fault
 from tests.properties.journals import logarithmic
 
@@ -72,7 +72,7 @@ def loaded(raw: dict) -> Scenario:
     "input",
     "characters in a title that TOML does not take as they are",
     "escaped: the scenario in record and checkpoint reads as it was",
-    broken=("orchestrator/scenario_file.py", ' and c != "\\x7f"', ""),
+    broken=("orchestrator/scenario/file.py", ' and c != "\\x7f"', ""),
 )
 @given(settings_of_small())
 @settings(max_examples=200)

@@ -7,13 +7,13 @@ import scipy.linalg as sl
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotor_fmu.assembly import assemble
-from rotor_fmu.reduction import reduce
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.statics import target_loads
-from rotor_fmu.train import Train
-from rotor_fmu.train_file import load_train
-from rotor_fmu.train_writer import write_train
+from rotor_fmu.reduction.reduce import reduce
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.shaft.statics import target_loads
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Train
+from rotor_fmu.train.writer import write_train
+from rotor_fmu.vibration.rotor import Rotor
 from tests.properties.shafts import laws, trains
 
 METHODS = st.sampled_from(["irs", "irs-plain", "guyan", "craig-bampton"])

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor_fmu.train import BearingSeat, Material, Shoulder, Train, Wheel
-from rotor_fmu.whirl import LinearBearings
+from rotor_fmu.linear.whirl import LinearBearings
+from rotor_fmu.train.train import BearingSeat, Material, Shoulder, Train, Wheel
 
 
 def uniform_shaft(length, diameter, elements, material, *, inner_diameter=0.0):
@@ -33,9 +33,7 @@ def friswell():
     """Friswell, Penny, Garvey, Lees: Dynamics of Rotating Machines (2010), example 5.9.1."""
     material = Material("steel", 211e9, 211e9 / (2.0 * 81.2e9) - 1.0, 7810.0)
     discs = ((2, 32.58973, 0.178089, 0.329564), (4, 51.52526, 0.423581, 0.805082))
-    wheels = tuple(
-        Wheel(f"disc {k}", k, mass, polar, transverse) for k, mass, transverse, polar in discs
-    )
+    wheels = tuple(Wheel(f"disc {k}", k, mass, polar, transverse) for k, mass, transverse, polar in discs)
     return replace(with_bearings(uniform_shaft(1.5, 0.05, 6, material), 0, 6), wheels=wheels)
 
 

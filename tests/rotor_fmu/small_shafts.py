@@ -7,13 +7,13 @@ import math
 import numpy as np
 import scipy.sparse as sp
 
-from rotor_fmu.assembly import ShaftModel
-from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.prepared_shaft import PreparedShaft
-from rotor_fmu.reduction import ReducedShaft
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.stress import BendingStress
-from rotor_fmu.unbalance import Unbalance
+from rotor_fmu.reduction.reduce import ReducedShaft
+from rotor_fmu.shaft.matrices import ShaftModel
+from rotor_fmu.shaft.prepared import PreparedShaft
+from rotor_fmu.shaft.stress import BendingStress
+from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.rotor import Rotor
 
 
 def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):

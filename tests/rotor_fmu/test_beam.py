@@ -10,10 +10,10 @@ import pytest
 import scipy.linalg as sl
 from published_rotors import uniform_shaft
 
-from rotor_fmu.assembly import assemble, plane_x, plane_y
-from rotor_fmu.beam import shear_coefficient
-from rotor_fmu.train import Material, Shoulder, Wheel
-from rotor_fmu.train_file import load_train
+from rotor_fmu.shaft.beam import shear_coefficient
+from rotor_fmu.shaft.matrices import assemble, plane_x, plane_y
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Material, Shoulder, Wheel
 
 STEEL = Material("steel", 2.1e11, 0.3, 7850.0)
 HUANG = np.array([139.8124893, 337.71959318, 576.08190182, 829.27662087, 1085.82358877])
@@ -104,9 +104,9 @@ class TestAssembly:
         centre = sum(s.mass * (z[k] + z[k + 1]) / 2 for k, s in enumerate(train.shoulders))
         centre += sum(w.mass * train.z[w.node] for w in train.wheels)
         assert ones @ model.plane_mass @ tilt == pytest.approx(centre, rel=1e-12)
-        polar = sum(
-            2.0 * s.material.density * s.second_moment * s.length for s in train.shoulders
-        ) + sum(w.polar_inertia for w in train.wheels)
+        polar = sum(2.0 * s.material.density * s.second_moment * s.length for s in train.shoulders) + sum(
+            w.polar_inertia for w in train.wheels
+        )
         assert tilt @ model.plane_polar @ tilt == pytest.approx(polar, rel=1e-12)
 
     def test_gravity_pulls_down_with_all_mass(self, name):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from rotor_fmu.data.turbine.calibration.search import TARGETS, before_fracture, design_value, with_values
-from rotor_fmu.turbine_geometry import TurbineDesign
+from orchestrator.study.paper.calibration.search import TARGETS, before_fracture, design_value, with_values
+from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign
 
 
 @pytest.fixture(scope="module")

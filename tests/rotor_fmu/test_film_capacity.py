@@ -10,10 +10,10 @@ from scipy.integrate import quad
 
 from bearing_fmu.film import make_film
 from bearing_fmu.parameters import BearingParameters
-from rotor_fmu.film_capacity import most_load
-from rotor_fmu.statics import target_loads
-from rotor_fmu.train import BearingSeat
-from rotor_fmu.train_file import bundled_trains, load_train
+from rotor_fmu.shaft.statics import target_loads
+from rotor_fmu.train.file import bundled_trains, load_train
+from rotor_fmu.train.film_capacity import most_load
+from rotor_fmu.train.train import BearingSeat
 
 
 def half_sommerfeld(e):

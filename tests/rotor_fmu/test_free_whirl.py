@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from published_rotors import friswell, lalanne_ferraris, springs, uniform_shaft
 
-from rotor_fmu.assembly import assemble
-from rotor_fmu.free_whirl import WhirlError, free_branches, irs_iterates, modal_truncation
-from rotor_fmu.reduction import reduce
-from rotor_fmu.train import Material
-from rotor_fmu.train_file import load_train
-from rotor_fmu.whirl import campbell, half_axes, whirl_modes
+from rotor_fmu.linear.free_whirl import WhirlError, free_branches, irs_iterates, modal_truncation
+from rotor_fmu.linear.whirl import campbell, half_axes, whirl_modes
+from rotor_fmu.reduction.reduce import reduce
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Material
 
 HERTZ = 2.0 * math.pi
 SPEEDS = HERTZ * np.array([0.0, 12.5, 25.0, 37.5, 50.0])

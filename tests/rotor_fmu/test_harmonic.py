@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from published_rotors import friswell, springs, uniform_shaft, with_bearings
 
-from rotor_fmu.assembly import assemble
-from rotor_fmu.harmonic import static_response, unbalance_response
-from rotor_fmu.reduction import reduce
-from rotor_fmu.reduction_report import reduction_report
-from rotor_fmu.train import Material, Wheel
-from rotor_fmu.train_file import load_train
+from rotor_fmu.linear.harmonic import static_response, unbalance_response
+from rotor_fmu.linear.reduction_report import reduction_report
+from rotor_fmu.reduction.reduce import reduce
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Material, Wheel
 
 GRAVITY = 9.80665
 

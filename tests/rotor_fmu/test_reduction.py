@@ -10,12 +10,12 @@ import pytest
 import scipy.linalg as sl
 from published_rotors import uniform_shaft
 
-from rotor_fmu.assembly import assemble
-from rotor_fmu.irs import ReductionError, improved_reduced_system, irs_iterations
-from rotor_fmu.reduction import METHODS, default_interface, default_masters, reduce
-from rotor_fmu.ritz import craig_bampton, guyan
-from rotor_fmu.train import Material
-from rotor_fmu.train_file import load_train
+from rotor_fmu.reduction.irs import ReductionError, improved_reduced_system, irs_iterations
+from rotor_fmu.reduction.reduce import METHODS, default_interface, default_masters, reduce
+from rotor_fmu.reduction.ritz import craig_bampton, guyan
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Material
 
 GRAVITY = 9.80665
 REDUCTIONS = [m for m in METHODS if m != "none"]
@@ -214,7 +214,7 @@ def test_non_convergence_is_an_error(turbine):
 
 def test_complement_carries_the_gyroscopic_effect(turbine, reduced):
     """At 25 Hz the lowest eight bending modes, both whirl directions, of the unreduced train."""
-    from rotor_fmu.whirl import whirl_modes
+    from rotor_fmu.linear.whirl import whirl_modes
 
     speed = 50.0 * math.pi
     full = whirl_modes(turbine, speed, 16, above=2.0).frequency

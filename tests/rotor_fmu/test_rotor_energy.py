@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import quad
 from small_shafts import linear_bearings, matrix_rotor, no_law, run, small_rotor, unbalance, unreduced
 
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.train_file import load_train
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.rotor import Rotor
 
 GRAVITY = 9.80665
 SPEED = 12.0

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from small_shafts import linear_bearings, run, small_rotor
 
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.stress import bending_stress
-from rotor_fmu.train_file import load_train
+from rotor_fmu.shaft.stress import bending_stress
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.rotor import Rotor
 
 GRAVITY = 9.80665
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from small_shafts import linear_bearings, no_law, run, small_rotor
 
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.rotor_state import RotorState
-from rotor_fmu.train_file import load_train
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.state import RotorState
 
 GRAVITY = 9.80665
 SPEED = 12.0

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from small_shafts import linear_bearings, no_law, run, small_rotor, unbalance
 
-from rotor_fmu.affine_step import StepFailure
-from rotor_fmu.map_cache import CAPACITY
+from rotor_fmu.vibration.affine_step import StepFailure
+from rotor_fmu.vibration.map_cache import CAPACITY
 
 SPEED = 12.0
 NODES = np.array([0, 1, 2, 3, 8, 9, 10, 11])  # journals of the small rotor

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from published_rotors import uniform_shaft, with_bearings
 
-from rotor_fmu.assembly import assemble
-from rotor_fmu.statics import target_loads
-from rotor_fmu.stress import bending_stress
-from rotor_fmu.train import Coupling, Material, Shoulder, Wheel
-from rotor_fmu.train_file import load_train
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.shaft.statics import target_loads
+from rotor_fmu.shaft.stress import bending_stress
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Coupling, Material, Shoulder, Wheel
 
 GRAVITY = 9.80665
 STEEL = Material("steel", 2.1e11, 0.3, 7850.0)

@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from small_shafts import gyroscopic, matrix_rotor, no_law, run, unbalance, unreduced
 
-from rotor_fmu.modal_shaft import to_modal
-from rotor_fmu.state_space import state_matrix, step_maps
+from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.state_space import state_matrix, step_maps
 
 
 def oscillator(*, mass=2.0, stiffness=800.0, damping=3.0, speed=15.0, amount=0.1, phase=0.4):

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from rotor_fmu.train import Train
-from rotor_fmu.train_file import DATA, bundled_trains, load_train
-from rotor_fmu.train_writer import shaft_csv, train_toml, write_train
-from rotor_fmu.turbine_geometry import TurbineDesign, turbine_train
+from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
+from rotor_fmu.train.file import DATA, bundled_trains, load_train
+from rotor_fmu.train.train import Train
+from rotor_fmu.train.writer import shaft_csv, train_toml, write_train
 
 
 @pytest.fixture(scope="module")
@@ -62,16 +62,14 @@ class TestTheTurbine:
             *("LP3-front", "LP3-rear", "GEN-front", "GEN-rear", "EXC"),
         ]
         assert [c.name for c in turbine.couplings] == ["HP-LP1", "LP1-LP2", "LP2-LP3", "LP3-GEN", "GEN-EXC"]
-        per_rotor = [
-            sum(first < b.node < last for b in turbine.bearings) for first, last in turbine.sections
-        ]
+        per_rotor = [sum(first < b.node < last for b in turbine.bearings) for first, last in turbine.sections]
         assert per_rotor == [2, 2, 2, 2, 2, 1]
         for lp in ("LP1", "LP2", "LP3"):
             assert sum(w.name.startswith(f"{lp}-") for w in turbine.wheels) == 9
         assert 0.9e6 < turbine.mass < 1.45e6
 
     def test_bearings_are_plausible(self, turbine):
-        from rotor_fmu.statics import target_loads
+        from rotor_fmu.shaft.statics import target_loads
 
         loads = target_loads(turbine)
         numbers = [b.sommerfeld(f, turbine.speed) for b, f in zip(turbine.bearings, loads, strict=True)]

@@ -11,7 +11,7 @@ from tests.rotor_fmu.train_folder import edit, folder, problems
 
 __all__ = ["folder"]
 
-CHECKS, SCHEMA = "rotor_fmu/train_checks.py", "rotor_fmu/train_schema.py"
+CHECKS, SCHEMA = "rotor_fmu/train/checks.py", "rotor_fmu/train/schema.py"
 
 
 def case(old, new, line, words, name, outcome, *, broken):
@@ -27,7 +27,7 @@ IN_TRAIN = [
     case(
         "z = 3.0", "z = 6.5", 54, "wheel 'wheel-2': z = 6.5 is outside the shaft; allowed is 0 to 6",
         "a wheel outside the shaft", "exit 2; file, line, key, value and the length of the shaft",
-        broken=("rotor_fmu/train_file.py", "found += entry_problems(shaft, kind, index, entry)", "pass"),
+        broken=("rotor_fmu/train/file.py", "found += entry_problems(shaft, kind, index, entry)", "pass"),
     ),
     case(
         "z = 3.0", "z = 3.1", 54, "z = 3.1; allowed are boundaries of shoulders, the nearest 2.35, 3, 3.65",
@@ -141,7 +141,7 @@ IN_TRAIN = [
         "clearance =", "clearence =", 19,
         "clearence: unknown key; did you mean 'clearance'? allowed are name, z,",
         "a misspelt key of a train", "exit 2; line, the likely spelling, all keys",
-        broken=("rotor_fmu/wording.py", "if close else \"\"", "if False else \"\""),
+        broken=("rotor_fmu/train/wording.py", "if close else \"\"", "if False else \"\""),
     ),
 ]  # fmt: skip
 
@@ -177,12 +177,12 @@ IN_TABLE = [
         "0.25,0.28,0.0,steel", "0.25,0.28,0.0,stel", 7,
         "material = 'stel'; did you mean 'steel'? allowed are steel",
         "an unknown material", "exit 2; file, row, the likely spelling, all materials",
-        broken=("rotor_fmu/train_file.py", "if row.material not in materials:", "if False:"),
+        broken=("rotor_fmu/train/file.py", "if row.material not in materials:", "if False:"),
     ),
     case(
         "0.25,0.28,0.0,steel", "0.25;0.28;0.0;steel", 7, "1 values; allowed are 4",
         "a table with the wrong separator in a row", "exit 2; file, row, how many values it has",
-        broken=("rotor_fmu/train_file.py", "row {number}: {len(cells)} values", "{len(cells)} values"),
+        broken=("rotor_fmu/train/file.py", "row {number}: {len(cells)} values", "{len(cells)} values"),
     ),
 ]  # fmt: skip
 
@@ -230,7 +230,7 @@ def test_a_shaft_that_lifts_off(folder):
     "input",
     "several faults in both files of a train",
     "exit 2; all of them at once, each with its line or row",
-    broken=("rotor_fmu/train_file.py", "continue  # said with the whole file", "return"),
+    broken=("rotor_fmu/train/file.py", "continue  # said with the whole file", "return"),
 )
 def test_all_faults_of_both_files_at_once(folder):
     """What is wrong by itself does not hide what does not fit on the shaft."""

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from rotor_fmu.train_file import TrainFileError, load_train
+from rotor_fmu.train.file import TrainFileError, load_train
 from tests.rotor_fmu.train_folder import edit, folder, problems
 
 __all__ = ["folder"]

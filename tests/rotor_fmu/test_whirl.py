@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from published_rotors import friswell, lalanne_ferraris, springs, uniform_shaft, with_bearings
 
-from rotor_fmu import whirl
-from rotor_fmu.assembly import assemble
-from rotor_fmu.reduction import reduce
-from rotor_fmu.train import Material, Train, Wheel
-from rotor_fmu.train_file import load_train
-from rotor_fmu.whirl import campbell, whirl_modes
+from rotor_fmu.linear import whirl
+from rotor_fmu.linear.whirl import campbell, whirl_modes
+from rotor_fmu.reduction.reduce import reduce
+from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Material, Train, Wheel
 
 RPM = 2.0 * math.pi / 60.0
 

@@ -9,15 +9,15 @@ import pytest
 from scipy.integrate import quad_vec
 from small_shafts import gyroscopic, no_law, run, unreduced
 
-from rotor_fmu.hold import harmonic_hold, linear_hold
-from rotor_fmu.modal_shaft import ModalShaft, to_modal
-from rotor_fmu.prepared_shaft import prepare_shaft
-from rotor_fmu.rotor import Rotor
-from rotor_fmu.rotor_state import RotorState
-from rotor_fmu.state_space import ModalCoordinates
-from rotor_fmu.train_file import load_train
-from rotor_fmu.whirl_coordinates import WhirlCoordinates, whirl_coordinates
-from rotor_fmu.whirl_plane import whirl_plane
+from rotor_fmu.shaft.prepared import prepare_shaft
+from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.first_order_hold import harmonic_hold, linear_hold
+from rotor_fmu.vibration.modal_shaft import ModalShaft, to_modal
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.state import RotorState
+from rotor_fmu.vibration.state_space import ModalCoordinates
+from rotor_fmu.vibration.whirl_coordinates import WhirlCoordinates, whirl_coordinates
+from rotor_fmu.vibration.whirl_plane import whirl_plane
 
 STEP = 1e-4
 

@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 
-from rotor_fmu.train_file import DATA, TrainFileError, load_train
+from rotor_fmu.train.file import DATA, TrainFileError, load_train
 
 
 @pytest.fixture

@@ -2,10 +2,10 @@
 
 import struct
 
-from fmus.failure import UnitError
-from fmus.layout import Layout
-from fmus.slave import UnitSlave
-from fmus.variable import Variable
+from fmus.port.variable import Variable
+from fmus.unit.failure import UnitError
+from fmus.unit.layout import Layout
+from fmus.unit.slave import UnitSlave
 
 VARIABLES = (
     Variable("x", "input", "m", "displacement", 0.001),

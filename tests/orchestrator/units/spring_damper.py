@@ -7,7 +7,7 @@ import numpy as np
 from port_unit import PortUnit
 
 from fmus import port
-from fmus.failure import FILM_FAILED
+from fmus.unit.failure import FILM_FAILED
 
 _OWN = (
     port.Variable("spring.stiffness", "parameter", start=2e7),

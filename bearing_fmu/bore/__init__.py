@@ -1,0 +1,1 @@
+"""The bore: the gap that it leaves to the journal."""

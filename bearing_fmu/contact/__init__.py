@@ -1,0 +1,1 @@
+"""Solid contact of journal and bore."""

@@ -1,0 +1,1 @@
+"""The films: one folder a way to solve them."""

@@ -1,0 +1,1 @@
+"""V2: the film of the aligned journal."""

@@ -1,0 +1,283 @@
+"""V2: the Reynolds equation over the aligned gap.
+
+The same discrete equations as V1 at zero tilt.  The gap does not depend on z, so the axial basis is
+diagonalised once: K_z v = lambda M v, v' M v = 1.  Each mode is a cyclic tridiagonal system, and of the
+modes only those even in z are excited.  Where the film carries pressure is decided on the nodes, so
+the zeroing of negative pressure is that of V1.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
+from bearing_fmu.films.tilted.reynolds import summit
+from bearing_fmu.films.tilted.workspace import DAMPING, PEAK, SHEAR, STIFFNESS
+from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.grid import COS, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade, place
+from bearing_fmu.kernels.guembel import bearing_part
+
+Floats = NDArray[np.float64]
+
+# Fields on a ring of columns or faces.
+GAP, OPEN, OPEN_1, OPEN_2, CONDUCTANCE, SQUEEZE, ABSOLUTE, FIELDS = range(8)
+
+
+class AlignedFilm(NamedTuple):
+    """Everything prepared once for one bearing; m columns, r even modes, h rows with z >= 0."""
+
+    values: Floats  #: (r,) eigenvalues, (2R/b)^2 included
+    drive: Floats  #: (r,) of a right-hand side that is constant over z
+    shapes: Floats  #: (h, r) modes at the rows
+    centre: Floats  #: (r,) modes at z = 0
+    weights: Floats  #: (h,) of integrals over z, both halves
+    circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
+    rings: Floats  #: (2, RING_ROWS, m)
+    grading: Floats  #: (6, 4)
+    fields: Floats  #: (2, FIELDS, m) columns and faces
+    nodal: Floats  #: (h, 4, m) bearing part of the pressure and its derivatives
+    modal: Floats  #: (3, m, r) the pressure and two adjoint ones
+    factor: Floats  #: (m, 2, r) reciprocal pivots and coupling to the last column
+    forcing: Floats  #: (8, m) work space
+
+
+def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
+    """Prepare a film of `columns` x `rows` with 2R/b = `aspect`."""
+    basis = axial_basis(rows)
+    mass = basis.weights[:rows]
+    stiffness = np.einsum("q,qjk->jk", basis.stiffness_weights() * aspect**2, basis.stiffness_products())
+    values, modes = eigh(stiffness, np.diag(mass))
+    even = np.flatnonzero(np.abs(mass @ modes) > 1e-8)
+    half = np.flatnonzero(basis.nodes[:rows] > -1e-12)
+    double = np.where(basis.nodes[half] > 1e-12, 2.0, 1.0)
+    angle = 2.0 * np.pi / columns * np.arange(2 * columns) / 2.0
+    return AlignedFilm(
+        values=values[even],
+        drive=(mass @ modes)[even],
+        shapes=np.ascontiguousarray(modes[np.ix_(half, even)]),
+        centre=np.ascontiguousarray((basis.interpolation(np.zeros(1)) @ modes)[0, even]),
+        weights=mass[half] * double,
+        circle=np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])]),
+        rings=np.zeros((2, RING_ROWS, columns)),
+        grading=np.zeros((6, 4)),
+        fields=np.zeros((2, FIELDS, columns)),
+        nodal=np.zeros((half.size, 4, columns)),
+        modal=np.zeros((3, columns, even.size)),
+        factor=np.zeros((columns, 2, even.size)),
+        forcing=np.zeros((8, columns)),
+    )
+
+
+@inner_kernel
+def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
+    """Grid, gap, conductances and squeezed volume."""
+    m = film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    a, da = film.grading[0, :2], film.grading[1:3]
+    grade(q, a, da, film.grading[3:, :2])
+    rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    for side in range(2):
+        ring, field = film.rings[side], film.fields[side]
+        place(film.circle[side], a, da, 2, ring)
+        cos, sin, metric = ring[COS], ring[SIN], ring[METRIC]
+        gap, t, conductance = field[GAP], field[OPEN], field[CONDUCTANCE]
+        for i in range(m):
+            gap[i] = 1.0 - q[0] * cos[i] - q[1] * sin[i]
+        flow_gaps(gap, sigma, rough, t, field[OPEN_1], field[OPEN_2])
+        for i in range(m):
+            width = cell * metric[i] if side == 0 else 1.0 / (cell * metric[i])
+            conductance[i] = width * (t[i] * t[i] * t[i])
+    cos, sin = film.rings[1, COS], film.rings[1, SIN]
+    squeeze = film.fields[0, SQUEEZE]
+    for i in range(m):
+        back = i - 1 if i > 0 else m - 1
+        squeeze[i] = v[1] * (cos[i] - cos[back]) - v[0] * (sin[i] - sin[back])
+
+
+@inner_kernel
+def _factorise(film: AlignedFilm) -> bool:
+    """Eliminate each mode's columns as `ring.factorise` does, all modes abreast."""
+    m, modes = film.circle.shape[2], film.values.shape[0]
+    along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
+    s, v, last = film.forcing[0], film.forcing[1], film.forcing[2]
+    for r in range(modes):
+        last[r] = film.values[r] * axial[m - 1] + along[m - 1] + along[m - 2]
+        s[r] = film.values[r] * axial[0] + along[0] + along[m - 1]
+        v[r] = -along[m - 1]
+    for i in range(m - 1):
+        for r in range(modes):
+            if i == m - 2:
+                v[r] -= along[i]
+            if not s[r] > 0.0:
+                return False
+            inverse = 1.0 / s[r]
+            fill = inverse * v[r]
+            film.factor[i, 0, r] = inverse
+            film.factor[i, 1, r] = fill
+            last[r] -= fill * v[r]
+            v[r] = along[i] * fill
+            s[r] = film.values[r] * axial[i + 1] + along[i + 1] + along[i] - along[i] * along[i] * inverse
+    for r in range(modes):
+        if not last[r] > 0.0:
+            return False
+        film.factor[m - 1, 0, r] = 1.0 / last[r]
+    return True
+
+
+@inner_kernel
+def _substitute(film: AlignedFilm, first: int, sides: int) -> None:
+    """Solve in place for the modal pressures from `first`, all modes and sides abreast."""
+    m, modes = film.circle.shape[2], film.values.shape[0]
+    along = film.fields[1, CONDUCTANCE]
+    for i in range(m - 1):
+        for k in range(first, first + sides):
+            for r in range(modes):
+                y = film.modal[k, i, r]
+                if i > 0:
+                    y += along[i - 1] * film.modal[k, i - 1, r]
+                film.modal[k, i, r] = film.factor[i, 0, r] * y
+                film.modal[k, m - 1, r] -= film.factor[i, 1, r] * y
+    for k in range(first, first + sides):
+        for r in range(modes):
+            film.modal[k, m - 1, r] *= film.factor[m - 1, 0, r]
+    for i in range(m - 2, -1, -1):
+        for k in range(first, first + sides):
+            for r in range(modes):
+                x = film.modal[k, i, r] - film.factor[i, 1, r] * film.modal[k, m - 1, r]
+                if i < m - 2:
+                    x += film.factor[i, 0, r] * along[i] * film.modal[k, i + 1, r]
+                film.modal[k, i, r] = x
+
+
+@stage
+def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Floats) -> bool:
+    """Pressure, wrench, largest pressure and shear integral."""
+    m = film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    if not _factorise(film):
+        return False
+    t, t1, squeeze = film.fields[1, OPEN], film.fields[0, OPEN_1], film.fields[0, SQUEEZE]
+    for i in range(m):
+        back = i - 1 if i > 0 else m - 1
+        drive = -(speed * (t[i] - t[back]) + 2.0 * t1[i] * squeeze[i])
+        for r in range(film.values.shape[0]):
+            film.modal[0, i, r] = film.drive[r] * drive
+    _substitute(film, 0, 1)
+    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
+    above = film.forcing[0]
+    for j in range(film.weights.shape[0]):
+        for i in range(m):
+            above[i] = ambient
+            for r in range(film.values.shape[0]):
+                above[i] += film.shapes[j, r] * film.modal[0, i, r]
+        part = film.nodal[j, 0]
+        bearing_part(above, m, part, film.nodal[j, 1], film.nodal[j, 2], film.nodal[j, 3])
+        along, across = 0.0, 0.0
+        for i in range(m):
+            along += part[i] * metric[i] * cos[i]
+            across += part[i] * metric[i] * sin[i]
+        result[0] -= along * film.weights[j] * cell
+        result[1] -= across * film.weights[j] * cell
+    shear = 0.0
+    for i in range(m):
+        above[i] = ambient
+        for r in range(film.values.shape[0]):
+            above[i] += film.centre[r] * film.modal[0, i, r]
+        shear += metric[i] / film.fields[0, OPEN, i]
+    result[PEAK] = summit(above, m)
+    result[SHEAR] = 2.0 * cell * shear
+    return True
+
+
+@inner_kernel
+def _solve_adjoints(film: AlignedFilm) -> None:
+    """Modal adjoint pressures 1 and 2, for the two components of the force."""
+    m = film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
+    film.modal[1:] = 0.0
+    for j in range(film.weights.shape[0]):
+        own, ahead, behind = film.nodal[j, 1], film.nodal[j, 2], film.nodal[j, 3]
+        weight = -film.weights[j] * cell
+        for i in range(m):
+            back = i - 1 if i > 0 else m - 1
+            fore = i + 1 if i + 1 < m else 0
+            w0 = weight * own[i] * metric[i]
+            w1 = weight * ahead[back] * metric[back]
+            w2 = weight * behind[i] * metric[fore]
+            along = w0 * cos[i] + w1 * cos[back] + w2 * cos[fore]
+            across = w0 * sin[i] + w1 * sin[back] + w2 * sin[fore]
+            for r in range(film.values.shape[0]):
+                film.modal[1, i, r] += film.shapes[j, r] * along
+                film.modal[2, i, r] += film.shapes[j, r] * across
+    _substitute(film, 1, 2)
+
+
+@inner_kernel
+def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: Floats) -> None:
+    """dF/dq and dF/dv as in `tangent`, the sums over the rows being sums over the modes."""
+    m = film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    _solve_adjoints(film)
+    columns, faces = film.rings[0], film.rings[1]
+    column, face = film.fields[0], film.fields[1]
+    force = film.forcing[1]
+    force[:] = 0.0
+    for j in range(film.weights.shape[0]):
+        for i in range(m):
+            force[i] += film.weights[j] * cell * film.nodal[j, 0, i] * columns[METRIC, i]
+    for component in range(2):
+        at = 4 * component
+        for i in range(m):
+            back = i - 1 if i > 0 else m - 1
+            fore = i + 1 if i + 1 < m else 0
+            axial, around, volume, wedge = 0.0, 0.0, 0.0, 0.0
+            for r in range(film.values.shape[0]):
+                adjoint, pressure = film.modal[1 + component, i, r], film.modal[0, i, r]
+                step = film.modal[1 + component, fore, r] - adjoint
+                axial += film.values[r] * adjoint * pressure
+                around += step * (film.modal[0, fore, r] - pressure)
+                volume += film.drive[r] * adjoint
+                wedge += film.drive[r] * step
+            axial *= column[CONDUCTANCE, i]
+            around *= face[CONDUCTANCE, i]
+            by_gap_c = -3.0 * column[OPEN_1, i] / column[OPEN, i] * axial
+            by_gap_c -= 2.0 * volume * column[OPEN_2, i] * column[SQUEEZE, i]
+            by_gap_f = face[OPEN_1, i] * (speed * wedge - 3.0 * around / face[OPEN, i])
+            squeezed = -2.0 * volume * column[OPEN_1, i]
+            dcos = faces[COS, i] - faces[COS, back]
+            dsin = faces[SIN, i] - faces[SIN, back]
+            result[DAMPING + at] -= squeezed * dsin
+            result[DAMPING + at + 1] += squeezed * dcos
+            turn_c = q[0] * columns[SIN, i] - q[1] * columns[COS, i]
+            turn_f = q[0] * faces[SIN, i] - q[1] * faces[COS, i]
+            place_c = columns[COS, i] if component == 0 else columns[SIN, i]
+            place_t = -columns[SIN, i] if component == 0 else columns[COS, i]
+            for k in range(2):
+                move, move_f, move_b = columns[MOTION + k, i], faces[MOTION + k, i], faces[MOTION + k, back]
+                shift_c = (columns[COS, i] if k == 0 else columns[SIN, i]) - turn_c * move
+                shift_f = (faces[COS, i] if k == 0 else faces[SIN, i]) - turn_f * move_f
+                moved = v[1] * (faces[SIN, back] * move_b - faces[SIN, i] * move_f)
+                moved -= v[0] * (faces[COS, i] * move_f - faces[COS, back] * move_b)
+                change = squeezed * moved - by_gap_c * shift_c - by_gap_f * shift_f
+                change += around * faces[STRETCHING + k, i] - axial * columns[STRETCHING + k, i]
+                change -= force[i] * (place_c * columns[STRETCHING + k, i] + place_t * move)
+                result[STIFFNESS + at + k] += change
+
+
+@stage
+def solve_aligned(
+    film: AlignedFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
+) -> bool:
+    """Wrench and tangent of the aligned film; parameters and result as in `reynolds.solve_pressure`."""
+    result[:] = 0.0
+    _shape_gap(film, q, v, sigma)
+    if not _solve_pressure(film, speed, ambient, result):
+        return False
+    _add_tangent(film, q, v, speed, result)
+    return True

@@ -1,0 +1,1 @@
+"""V1: the film between a tilted journal and its bore."""

@@ -1,0 +1,252 @@
+"""V1: the Reynolds equation over the tilted gap, solved for pressure and wrench.
+
+In the gap H = 1 - (x + tilt_y z) cos(phi) - (y - tilt_x z) sin(phi), with z over half the width b/2
+and everything radial over the clearance C, the pressure over 6 eta R^2 / C^2 obeys ::
+
+    d/dphi(T^3 dp/dphi) + (2R/b)^2 d/dz(T^3 dp/dz) = speed dT/dphi + 2 dT/dt
+
+(the paper's Eq. 12 for constant density and viscosity; T(H) is the gap open to the oil, see `gap`).
+p is taken relative to the ambient pressure, so it vanishes at both ends.
+
+Finite volumes around the circumference (columns i at the cell centres, faces between i and i + 1),
+bubble functions along the axis (rows j).  The system is symmetric positive definite, cyclic block
+tridiagonal with one dense block a column.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
+from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
+from bearing_fmu.films.tilted.workspace import (
+    ABSOLUTE,
+    CONDUCTANCE,
+    GAP,
+    OPEN,
+    OPEN_1,
+    OPEN_2,
+    PEAK,
+    SHEAR,
+    SQUEEZE,
+    TiltedFilm,
+)
+from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.cyclic_solver import factorise, substitute
+from bearing_fmu.kernels.grid import COS, METRIC, SIN, grade, place
+from bearing_fmu.kernels.guembel import bearing_part
+from bearing_fmu.kernels.vector import LANES, add_rows
+from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
+
+Floats = NDArray[np.float64]
+
+
+@inner_kernel
+def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
+    """Grid, gap and conductances at the columns (axial flow) and at the faces (flow around)."""
+    m = film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    a, da = film.grading[0, :2], film.grading[1:3]
+    grade(q, a, da, film.grading[3:, :2])
+    rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    for side in range(2):
+        ring = film.rings[side]
+        place(film.circle[side], a, da, 4, ring)
+        cos, sin, metric = ring[COS], ring[SIN], ring[METRIC]
+        field = film.column if side == 0 else film.face
+        for j in range(field.shape[1]):
+            ex = q[0] + q[3] * film.nodes[j]
+            ey = q[1] - q[2] * film.nodes[j]
+            gap, t, conductance = field[GAP, j], field[OPEN, j], field[CONDUCTANCE, j]
+            for i in range(m):
+                gap[i] = 1.0 - ex * cos[i] - ey * sin[i]
+            flow_gaps(gap[:m], sigma, rough, t, field[OPEN_1, j], field[OPEN_2, j])
+            if side == 0:
+                scale = film.stiffness[j] * cell
+                for i in range(m):
+                    conductance[i] = scale * metric[i] * (t[i] * t[i] * t[i])
+            else:
+                scale = film.weights[j] / cell
+                for i in range(m):
+                    conductance[i] = scale / metric[i] * (t[i] * t[i] * t[i])
+
+
+@inner_kernel
+def _assemble(film: TiltedFilm, v: Floats, speed: float) -> None:
+    """System and right-hand side in the layout of the ring solver."""
+    n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
+    width = film.coupling.shape[0] // m
+    block = n * width
+    cos, sin = film.rings[1, COS], film.rings[1, SIN]
+    b, coupling, sides = film.blocks[0], film.coupling, film.sides
+    axial = film.column[CONDUCTANCE].reshape(-1)
+    b[:] = 0.0
+    for i in range(m):
+        for k in range(0, block, LANES):
+            add_rows(b, i * block + k, axial, i, length, film.products, k, block, n + 2)
+    for j in range(n):
+        along, t = film.face[CONDUCTANCE, j], film.face[OPEN, j]
+        squeeze, t1 = film.column[SQUEEZE, j], film.column[OPEN_1, j]
+        ux = v[0] + v[3] * film.nodes[j]
+        uy = v[1] - v[2] * film.nodes[j]
+        for i in range(m):
+            back = i - 1 if i > 0 else m - 1
+            squeeze[i] = uy * (cos[i] - cos[back]) - ux * (sin[i] - sin[back])
+            coupling[i * width + j] = along[i]
+            b[i * block + j * width + j] += along[i] + along[back]
+            wedge = speed * (t[i] - t[back])
+            sides[i * width + j] = -film.weights[j] * (wedge + 2.0 * t1[i] * squeeze[i])
+
+
+@inner_kernel
+def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
+    """Copy a solution of the ring solver into pressure `index`, with differences and slopes."""
+    n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
+    width = film.coupling.shape[0] // m
+    stack = film.pressures[index].reshape(-1)
+    for j in range(n):
+        at, ahead = j * length, (n + j) * length
+        for i in range(m):
+            stack[at + i] = film.sides[(i * sides + side) * width + j]
+        for i in range(m - 1):
+            stack[ahead + i] = stack[at + i + 1] - stack[at + i]
+        stack[ahead + m - 1] = stack[at] - stack[at + m - 1]
+    for k in range(n + 2):
+        at = (2 * n + k) * length
+        stack[at : at + length] = 0.0
+        for i in range(0, length, LANES):
+            add_rows(stack, at + i, film.slopes, k * n, 1, stack, i, length, n)
+
+
+@inner_kernel
+def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
+    """Wrench of the bearing part of the pressure, largest pressure, shear integral."""
+    n, m = film.face.shape[1], film.circle.shape[2]
+    cell = 2.0 * np.pi / m
+    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
+    result[:4] = 0.0
+    shear = 0.0
+    for j in range(n):
+        above, pressure = film.column[ABSOLUTE, j], film.pressures[0, j]
+        for i in range(m):
+            above[i] = pressure[i] + ambient
+        part = film.nodal[0, j]
+        bearing_part(above, m, part, film.nodal[1, j], film.nodal[2, j], film.nodal[3, j])
+        along, across = 0.0, 0.0
+        for i in range(m):
+            along += part[i] * metric[i] * cos[i]
+            across += part[i] * metric[i] * sin[i]
+        along *= film.weights[j] * cell
+        across *= film.weights[j] * cell
+        result[0] -= along
+        result[1] -= across
+        result[2] += film.nodes[j] * across
+        result[3] -= film.nodes[j] * along
+    for j in range(n + 2):
+        t = film.column[OPEN, j]
+        total = 0.0
+        for i in range(m):
+            total += metric[i] / t[i]
+        shear += film.weights[j] * cell * total
+    result[PEAK] = _peak(film, ambient)
+    result[SHEAR] = shear
+
+
+@inner_kernel
+def summit(p: Floats, count: int) -> float:
+    """Largest pressure on a ring of `count` nodes: the summit of the parabola at the largest value."""
+    at = 0
+    for i in range(count):
+        if p[i] > p[at]:
+            at = i
+    left, right = p[at - 1 if at > 0 else count - 1], p[at + 1 if at + 1 < count else 0]
+    bend = 2.0 * p[at] - left - right
+    rise = (right - left) ** 2 / (8.0 * bend) if bend > 0.0 else 0.0
+    return max(p[at] + rise, 0.0)
+
+
+@inner_kernel
+def _peak(film: TiltedFilm, ambient: float) -> float:
+    """Largest pressure over the film.
+
+    The axial polynomial is sampled between its nodes in the column of the largest nodal value and in
+    its two neighbours; around the circumference the summit of the parabola is taken.
+    """
+    n, m = film.face.shape[1], film.circle.shape[2]
+    top, column = 0.0, 0
+    for j in range(n):
+        pressure = film.pressures[0, j]
+        for i in range(m):
+            if pressure[i] > top:
+                top, column = pressure[i], i
+    back = column - 1 if column > 0 else m - 1
+    fore = column + 1 if column + 1 < m else 0
+    three = film.row[:3]
+    for k in range(film.fine.shape[0]):
+        three[:] = 0.0
+        for j in range(n):
+            value = film.fine[k, j]
+            three[0] += value * film.pressures[0, j, back]
+            three[1] += value * film.pressures[0, j, column]
+            three[2] += value * film.pressures[0, j, fore]
+        top = max(top, summit(three, 3))
+    return max(top + ambient, 0.0)
+
+
+@stage
+def solve_pressure(
+    film: TiltedFilm,
+    q: Floats,
+    v: Floats,
+    speed: float,
+    ambient: float,
+    sigma: float,
+    ruptures: int,
+    result: Floats,
+) -> int:
+    """Solve for the pressure and integrate it.
+
+    Parameters
+    ----------
+    film : TiltedFilm
+        Work space; on return pressure 0, the factor and all fields.
+    q, v : ndarray, shape (4,)
+        Position and velocity (1/s) over the clearance, tilts times b/2 over the clearance.
+    speed : float
+        Angular speed, rad/s.
+    ambient : float
+        Ambient pressure over 6 eta R^2 / C^2, 1/s.
+    sigma : float
+        Roughness over clearance.
+    ruptures : int
+        1 for Reynolds' condition, 0 for Guembel's.
+    result : ndarray, shape (RESULTS,)
+        Wrench, largest pressure and shear integral are written.
+
+    Returns
+    -------
+    int
+        A code of `FilmStatus`.
+    """
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
+    _shape_gap(film, q, sigma)
+    release(film)
+    status = NOT_CONVERGED
+    for attempt in range(ROUNDS):
+        _assemble(film, v, speed)
+        if ruptures != 0:
+            hold(film, ambient)
+        if not factorise(b, film.coupling, w, wt, film.block, film.row, m, n, width):
+            status = NO_SOLUTION
+            break
+        substitute(b, film.coupling, w, wt, film.sides, film.row, m, n, width, 1)
+        unfold(film, 0, 0, 1)
+        if ruptures == 0 or not move_rupture(film, ambient, attempt):
+            status = OK
+            break
+    if status == OK:
+        _integrate(film, ambient, result)
+    return status

@@ -1,0 +1,1 @@
+"""Numerical kernels that the films share, and how they are compiled."""

@@ -1,0 +1,75 @@
+"""How the kernels of this package are compiled.
+
+Division follows IEEE 754 (results are checked for NaN once, at the end), sums may be reordered and
+products fused, nothing else is relaxed.
+
+numba keeps compiled code next to the sources and renews it when the file of a function changes, but
+not when a function it calls changes in another file.  Here the whole package is the unit: any
+change of a module renews all its kernels.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, TypeVar
+
+from numba import njit
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract", "reassoc", "arcp"},
+}
+
+
+def _digest() -> str:
+    """Digest of the sources of this package."""
+    digest = hashlib.sha256()
+    package = Path(__file__).parents[1]
+    for path in sorted(package.rglob("*.py")):
+        digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+_SOURCES = _digest()
+
+
+def kernel(function: _Function) -> _Function:
+    """Compile `function`, callable from Python and from other kernels."""
+    return _compile(function, {"no_cfunc_wrapper": True})
+
+
+def inner_kernel(function: _Function) -> _Function:
+    """Compile `function` for use in other kernels only, which compiles faster."""
+    return _compile(function, {"no_cpython_wrapper": True, "no_cfunc_wrapper": True})
+
+
+def stage(function: _Function) -> _Function:
+    """Compile `function` as a part of the one kernel that calls it.
+
+    A kernel is optimised again in each of its callers; a stage, which does little but call other
+    kernels, is not compiled on its own, and takes one level out of that chain.
+    """
+    return _compile(function, {"inline": "always"})
+
+
+def _compile(function: _Function, more: dict[str, Any]) -> _Function:
+    try:
+        dispatcher: Any = njit(**_OPTIONS, **more)(function)
+    except RuntimeError:  # no folder to keep compiled code in: compile in every process
+        return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
+    cache = dispatcher._cache
+    cache._cache_file._source_stamp = _SOURCES
+    save = cache.save_overload
+
+    def save_if_possible(*arguments: Any) -> None:
+        with suppress(OSError):  # disk full: compiled it is all the same
+            save(*arguments)
+
+    cache.save_overload = save_if_possible
+    return dispatcher  # type: ignore[no-any-return]

@@ -1,0 +1,298 @@
+"""The port: every variable that the rotor FMU and the bearing FMUs exchange.
+
+This is the one declaration of the interface.  The builder writes the
+modelDescription from it, the facades address their values by it, the master and
+the SSP export connect by it.  SI units and rad throughout.
+
+Frame: fixed, z along the shaft, y up.  ``q = (x, y, tilt_x, tilt_y)`` is the
+displacement of the journal centre at the bearing's mid-plane and the rotation of
+the journal axis about x and y, so that at the axial distance z from the mid-plane
+the journal centre lies at ``(x + tilt_y z, y - tilt_x z)``; ``v = dq/dt``.
+
+The affine law: a bearing returns, besides the wrench ``F(q, v)`` on the rotor, ::
+
+    K = -dF/dq,   C = -dF/dv,   F0 = F + K q + C v
+
+so that ``F0 - K q' - C v'`` is the wrench near the state.  The rotor integrates
+that law; see the README of this folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from fmus.port.balance import BALANCE, ENERGY, TRACK_WORK, WORK
+from fmus.port.connector import (
+    F0,
+    FORCE,
+    HOUSING,
+    JOURNAL,
+    KINEMATIC_TEXT,
+    KINEMATIC_UNITS,
+    KINEMATICS,
+    LAW,
+    NOMINAL_SPEED,
+    POSITION,
+    SPEED,
+    VELOCITY,
+    WRENCH,
+    WRENCH_TEXT,
+    WRENCH_UNITS,
+    C,
+    K,
+    kinematics,
+    law,
+)
+from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability, Variable
+
+__all__ = [
+    "BEARING",
+    "BEARING_INPUTS",
+    "BEARING_OUTPUTS",
+    "BEARING_PARAMETERS",
+    "ENERGY",
+    "F0",
+    "FORCE",
+    "HOUSING",
+    "JOURNAL",
+    "KINEMATICS",
+    "LAW",
+    "NOMINAL_SPEED",
+    "POSITION",
+    "SPEED",
+    "UNITS",
+    "VELOCITY",
+    "WORK",
+    "WRENCH",
+    "C",
+    "Causality",
+    "K",
+    "Kind",
+    "Unit",
+    "Value",
+    "Variability",
+    "Variable",
+    "at_bearing",
+    "rotor",
+    "with_starts",
+]
+
+CLEARANCE = 8.62e-4
+JOURNAL_HEIGHT = -0.5 * CLEARANCE  # a bearing on its own starts at half its clearance
+
+BEARING_INPUTS: tuple[Variable, ...] = (
+    *(
+        replace(v, start=JOURNAL_HEIGHT) if v.name == "journal.y" else v
+        for v in kinematics("journal", "journal", "input")
+    ),
+    *kinematics("housing", "housing", "input"),
+    Variable(SPEED, "input", "rad/s", "rotor speed, positive from x to y", NOMINAL_SPEED, nominal=100.0),
+)
+_ON_STATE = tuple(v.name for v in BEARING_INPUTS)
+
+BEARING_OUTPUTS: tuple[Variable, ...] = (
+    *(
+        Variable(name, "output", unit, f"wrench on the rotor: {text}", nominal=1e6, depends_on=_ON_STATE)
+        for name, unit, text in zip(FORCE, WRENCH_UNITS, WRENCH_TEXT, strict=True)
+    ),
+    *law("output", depends_on=_ON_STATE),
+    *(
+        Variable(name, "output", unit, text, minimum=minimum, nominal=nominal, depends_on=_ON_STATE)
+        for name, unit, text, minimum, nominal in (
+            ("h_min", "m", "least gap over the whole film; negative: asperities flattened", None, 1e-4),
+            ("h_min_centre", "m", "least gap on the centre line of the bearing", None, 1e-4),
+            ("h_min_z", "m", "axial position of the least gap, from the mid-plane", None, 1e-1),
+            ("p_max", "Pa", "largest film pressure", 0.0, 1e7),
+            ("contact_force", "N", "integral of the solid contact pressure", 0.0, 1e6),
+            ("contact.Fx", "N", "part of the wrench from solid contact: force in x", None, 1e6),
+            ("contact.Fy", "N", "part of the wrench from solid contact: force in y", None, 1e6),
+            ("contact.Mx", "N.m", "part of the wrench from solid contact: moment about x", None, 1e6),
+            ("contact.My", "N.m", "part of the wrench from solid contact: moment about y", None, 1e6),
+            ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
+            ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
+            ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
+        )
+    ),
+)
+
+_OFFSET_TEXT = "bearing centre in the fixed frame: "
+
+BEARING_PARAMETERS: tuple[Variable, ...] = (
+    *(
+        Variable(name, "parameter", unit, text, start, minimum=minimum, nominal=nominal)
+        for name, unit, text, start, minimum, nominal in (
+            ("diameter", "m", "journal diameter d", 0.80, 0.0, 1.0),
+            ("width", "m", "bearing width b", 0.64, 0.0, 1.0),
+            ("clearance", "m", "radial clearance C = psi d/2", CLEARANCE, 0.0, 1e-3),
+            ("viscosity", "Pa.s", "dynamic viscosity eta of the oil", 0.0242, 0.0, 1e-2),
+            ("ambient_pressure", "Pa", "pressure at the bearing's ends, over the cavity", 0.0, None, 1e5),
+            ("contact.roughness", "m", "combined roughness sigma of journal and bore", 3e-6, 0.0, 1e-6),
+            ("contact.modulus", "Pa", "contact factor K'E' of p_c = K'E' F_5/2(h/sigma)", 1e9, 0.0, 1e9),
+            ("contact.friction", "", "friction coefficient of solid contact", 0.1, 0.0, 0.1),
+        )
+    ),
+    *(
+        Variable(f"offset.{name}", "parameter", unit, _OFFSET_TEXT + text, 0.0, nominal=1e-4)
+        for name, unit, text in zip(POSITION, KINEMATIC_UNITS[:4], KINEMATIC_TEXT[:4], strict=True)
+    ),
+    *(
+        Variable(name, "parameter", "", f"film resolution {text}", start, minimum=minimum, kind="Integer")
+        for name, text, start, minimum in (
+            ("film.columns", "around the circumference", 48, 16),
+            ("film.rows", "along the axis", 8, 3),
+        )
+    ),
+)
+
+BEARING: tuple[Variable, ...] = BEARING_INPUTS + BEARING_OUTPUTS + BEARING_PARAMETERS
+"""The unit of every bearing depth, in the order of its value references."""
+
+
+def at_bearing(index: int, name: str) -> str:
+    """Name on the rotor of the bearing port's variable `name`, bearing `index` from 1."""
+    return f"bearing[{index}].{name}"
+
+
+_ROTOR_PARAMETERS: tuple[Variable, ...] = (
+    Variable("gravity", "parameter", "m/s2", "gravity, against y", 9.80665, minimum=0.0, nominal=10.0),
+    Variable(
+        "reduction", "parameter", "", "irs, irs-plain, guyan, craig-bampton, none", "irs", kind="String"
+    ),
+    Variable(
+        "start.from_law",
+        "parameter",
+        "",
+        "start in equilibrium with the affine laws at the inputs instead of at start.*",
+        False,
+        kind="Boolean",
+    ),
+    Variable(
+        "start.orbit",
+        "parameter",
+        "",
+        "start with the linear unbalance response superposed",
+        True,
+        kind="Boolean",
+    ),
+    Variable("fracture.time", "parameter", "s", "instant of the blade fracture", 1.0, nominal=1.0),
+    TRACK_WORK,
+)
+_SUMMARY = (
+    ("amplitude.max", "m", "largest vibration amplitude of the shaft, from the static line", 1e-4),
+    ("amplitude.max_z", "m", "axial position of the largest vibration amplitude", 10.0),
+    ("stress.max", "Pa", "largest normal stress from bending, both planes combined", 1e7),
+    ("stress.max_z", "m", "axial position of the largest normal stress", 10.0),
+)
+_START_PARTS = (
+    ("", "static"),
+    ("_cos", "1X orbit, part with cos(speed t):"),
+    ("_sin", "1X orbit, part with sin(speed t):"),
+)
+_WHEEL = (
+    ("unbalance", "kg.m", "nominal unbalance"),
+    ("unbalance_phase", "rad", "angle of the nominal unbalance at t = 0"),
+    ("blade_unbalance", "kg.m", "unbalance added by the blade fracture"),
+    ("blade_phase", "rad", "angle at t = 0 of the unbalance of the lost blade"),
+)
+_FIELDS = (
+    ("x", "m", "displacement in x", None, 1e-4),
+    ("y", "m", "displacement in y, static sag included", None, 1e-3),
+    ("amplitude", "m", "vibration amplitude from the static line", 0.0, 1e-4),
+    ("stress", "Pa", "normal stress from bending, both planes combined", 0.0, 1e7),
+)
+
+
+def _position(name: str, owner: str) -> Variable:
+    return Variable(name, "calculatedParameter", "m", f"{owner}: axial position", nominal=10.0, starts_on=())
+
+
+def _rotor_journal(i: int, owner: str) -> Iterator[Variable]:
+    """Yield the outputs at bearing `i`; initially they follow the start parameters."""
+    common = (SPEED, "start.from_law", "start.orbit")
+    for index, v in enumerate(kinematics(f"bearing[{i}].journal", f"{owner}, journal", "output")):
+        own = tuple(f"bearing[{i}].start.{POSITION[index % 4]}{part}" for part, _ in _START_PARTS)
+        yield replace(v, starts_on=common + own)
+
+
+def rotor(
+    bearings: Sequence[str],
+    wheels: Sequence[str],
+    nodes: int,
+    starts: Mapping[str, Value] | None = None,
+) -> tuple[Variable, ...]:
+    """The rotor unit of a train.
+
+    Parameters
+    ----------
+    bearings, wheels : sequence of str
+        Names, in the order of the train; they appear in the descriptions.
+    nodes : int
+        Nodes of the unreduced shaft.
+    starts : mapping, optional
+        Start values of the train, by variable name, in place of the port's.
+
+    Returns
+    -------
+    tuple of Variable
+        In the order of the value references: inputs, outputs on which a step
+        depends, parameters, and last the fields over the nodes.
+
+    Notes
+    -----
+    With ``start.from_law`` the initial outputs depend on the inputs, too.  That is
+    for masters that ask for it; `Variable.starts_on` names what they depend on
+    otherwise, so that other tools see no algebraic loop at the start.
+    """
+    variables: list[Variable] = [
+        Variable(SPEED, "input", "rad/s", "rotor speed, positive from x to y", NOMINAL_SPEED, nominal=100.0)
+    ]
+    for i, name in enumerate(bearings, 1):
+        for v in law("input", f"bearing[{i}]."):
+            variables.append(replace(v, description=f"{name}: {v.description}"))
+    for i, name in enumerate(bearings, 1):
+        variables.extend(_rotor_journal(i, name))
+    for name, unit, text, nominal in _SUMMARY:
+        variables.append(Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes"))
+    variables.extend(BALANCE)
+    variables.extend(_ROTOR_PARAMETERS)
+    for i, name in enumerate(bearings, 1):
+        for part, text in _START_PARTS:
+            for pos, unit in zip(POSITION, KINEMATIC_UNITS[:4], strict=True):
+                described = f"{name}: journal at the start, {text} {pos}"
+                start_name = f"bearing[{i}].start.{pos}{part}"
+                variables.append(Variable(start_name, "parameter", unit, described, 0.0, nominal=1e-4))
+        load = f"{name}: static target load"
+        variables += [
+            Variable(
+                f"bearing[{i}].load", "calculatedParameter", "N", load, nominal=1e6, starts_on=("gravity",)
+            ),
+            _position(f"bearing[{i}].z", name),
+        ]
+    for j, name in enumerate(wheels, 1):
+        for key, unit, text in _WHEEL:
+            described = f"{name}: {text}"
+            variables.append(Variable(f"wheel[{j}].{key}", "parameter", unit, described, 0.0, nominal=1.0))
+        variables.append(_position(f"wheel[{j}].z", name))
+    variables.extend(_position(f"node[{k}].z", f"shaft node {k}") for k in range(1, nodes + 1))
+    for key, unit, text, minimum, nominal in _FIELDS:
+        for k in range(1, nodes + 1):
+            described = f"shaft node {k}: {text}"
+            field = Variable(f"node[{k}].{key}", "output", unit, described, minimum=minimum, nominal=nominal)
+            variables.append(replace(field, lazy="fields"))
+    return with_starts(variables, starts or {})
+
+
+def with_starts(variables: Iterable[Variable], starts: Mapping[str, Value]) -> tuple[Variable, ...]:
+    """Replace the start values named in `starts`.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, or its variable takes no start value.
+    """
+    ports = {v.name: v for v in variables}
+    for name in starts:
+        if name not in ports or ports[name].start is None:
+            raise ValueError(f"start value for {name!r}: not an input or a parameter of this unit")
+    return tuple(replace(v, start=starts.get(v.name, v.start)) for v in ports.values())

@@ -1,0 +1,27 @@
+"""Energies of the rotor and works done on it, as variables of the port."""
+
+from __future__ import annotations
+
+from fmus.port.variable import Variable
+
+ENERGY = ("energy.kinetic", "energy.strain", "energy.gravity")
+WORK = ("work.bearings", "work.unbalance", "work.damping")
+
+_TEXTS = (
+    "kinetic energy of the vibration, rotation left out",
+    "strain energy of the shaft",
+    "potential in gravity, 0 in the undeformed shaft",
+    "work of the bearings on the shaft since the start; NaN unless track_work",
+    "work of the unbalance on the shaft since the start; NaN unless track_work",
+    "energy lost in the shaft's damping since the start; NaN unless track_work",
+)
+
+BALANCE = tuple(
+    Variable(name, "output", "J", text, nominal=1e3, lazy=name.partition(".")[0])
+    for name, text in zip((*ENERGY, *WORK), _TEXTS, strict=True)
+)
+"""Outputs of the rotor; the works' sum, damping negative, is the change of the energies' sum."""
+
+TRACK_WORK = Variable(
+    "track_work", "parameter", "", "keep account of work.*, at twice the cost", False, kind="Boolean"
+)

@@ -1,0 +1,1 @@
+"""A unit while it runs: values, state, failures, the FMI slave."""

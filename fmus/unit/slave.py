@@ -1,0 +1,304 @@
+"""Base of the facades: a unit of the port as an FMI 2.0 co-simulation slave.
+
+A facade maps values to physics; everything FMI asks for beyond that is here:
+value references, modes, the complete FMU state, refusal of bad input.
+
+Modes
+-----
+Until the end of Initialization Mode outputs follow the inputs and parameters:
+they are computed on get after a set.  From then on they change in ``do_step`` only.
+
+Failure
+-------
+No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it.  A bad
+parameter or a failed start is logged and kept: the outputs are NaN, and every
+``do_step`` returns ``fmi2Discard`` with the reason in the log.  A failed step is
+``fmi2Discard``, too; it leaves the unit as it was and may be repeated with other
+inputs or a smaller step.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from fmus.port.variable import Kind
+from fmus.unit.failure import UnitError, attempt
+from fmus.unit.layout import Layout
+from fmus.unit.state import ModelState, UnitState, unpack
+from fmus.unit.values import Store
+
+_NAMED = 8  # of the bad inputs in a message
+
+INSTANTIATED, INITIALIZATION, STEP, TERMINATED = range(4)  # modes, FMI 2.0, section 4.2.4
+
+
+class UnitSlave(Fmi2Slave):
+    """A unit of the port; facades fill in the hooks `prepare`, `start`, `advance`.
+
+    Parameters
+    ----------
+    layout : Layout
+        The variables of the unit.
+    **kwargs
+        What pythonfmu passes: instance_name, resources, visible, logger.
+
+    Attributes
+    ----------
+    values : ndarray of float64, shape (variables,)
+        All values but strings, by value reference.  Facades hold views on it.
+    inputs : ndarray of float64
+        The view on the inputs.
+    strings : dict
+        Values of the String variables, by value reference.
+    start_time : float
+        Time at the start of the simulation [s].
+    """
+
+    digest: ClassVar[bytes] = bytes(16)  # of the FMU; the entry script sets it
+    model_type: ClassVar[type[ModelState] | None] = None  # of the model's state, where it has one
+
+    def __init__(self, layout: Layout, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.layout = layout
+        self._store = Store(layout)
+        self.values = self._store.values
+        self.inputs = self.values[layout.inputs]
+        self.strings = self._store.strings
+        self.start_time = 0.0
+        self._mode = INSTANTIATED
+        self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
+        self._unsolved = True  # something was set since `start` last ran
+        self._stale = set(layout.lazy)  # groups that do not belong to the present state
+        self._failure = ""  # of the start
+        self._misuse = ""  # a call that FMI forbids
+
+    # -- hooks ---------------------------------------------------------------
+
+    @abstractmethod
+    def prepare(self) -> None:
+        """Build the model from the parameters and write the calculated parameters."""
+
+    @abstractmethod
+    def start(self) -> None:
+        """Write the outputs at the start time from inputs and parameters."""
+
+    def starts_on(self) -> int:
+        """Return how many inputs, from the first, the start depends on; others may be NaN until a step."""
+        return len(self.inputs)
+
+    @abstractmethod
+    def advance(self, time: float, step: float) -> None:
+        """Step from `time` by `step` and write the outputs; on error leave all as it was."""
+
+    def observe(self, group: str) -> None:
+        """Write the lazy variables of `group` for the present state."""
+
+    def model_state(self) -> ModelState | None:
+        """Return what the model holds beyond the values, of the type `model_type`."""
+        return None
+
+    def restore_model(self, state: Any) -> None:
+        """Take back what `model_state` returned; `prepare` has run."""
+
+    # -- life cycle ----------------------------------------------------------
+
+    def setup_experiment(
+        self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
+    ) -> None:
+        """Take the start time."""
+        self.start_time = float(start_time)
+        self._unsolved = True
+
+    def enter_initialization_mode(self) -> None:
+        """Begin the initialization."""
+        self._mode = INITIALIZATION
+
+    def exit_initialization_mode(self) -> None:
+        """Freeze the start: from here on outputs change in `do_step` only."""
+        self._solve()
+        self._mode = STEP
+
+    def terminate(self) -> None:
+        """End the simulation."""
+        self._mode = TERMINATED
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance the unit; False (fmi2Discard) with the reason in the log if it cannot."""
+        problem = self._misuse or self._failure
+        if not problem and self._mode != STEP:
+            problem = "a step is due between the end of initialization and termination only"
+        if not problem:
+            problem = attempt(self._checked_step, current_time, step_size)
+            self._stale = set(self.layout.lazy)
+        if problem:
+            self._report(f"step from t = {current_time} s by {step_size} s refused: {problem}")
+        return not problem
+
+    def _checked_step(self, time: float, step: float) -> None:
+        if not (0.0 < step < math.inf and math.isfinite(time)):
+            raise UnitError("the step must be positive and finite")
+        _check_inputs(self.layout, self.inputs)
+        self.advance(time, step)
+
+    def _solve(self) -> None:
+        """Prepare and start where something was set since; the reason of a failure is kept."""
+        if not self._unsolved:
+            return
+        self._failure = attempt(self._initialize)
+        self._unsolved = False
+        self._stale = set(self.layout.lazy)
+        if self._failure:
+            self._report(f"no start: {self._failure}", Fmi2Status.warning)
+            self.values[self.layout.outputs] = math.nan
+            if self._prepared_for is None:
+                self.values[list(self.layout.computed)] = math.nan
+
+    def _initialize(self) -> None:
+        _check_inputs(self.layout, self.inputs[: self.starts_on()])
+        for i in self.layout.settable["Real"]:
+            if math.isnan(self.values[i]):
+                raise UnitError(f"parameter {self.layout.variables[i].name} is not a number")
+        self._prepare_if_changed()
+        self.start()
+
+    def _prepare_if_changed(self) -> None:
+        if self._store.parameters() != self._prepared_for:
+            self._prepared_for = None
+            self.prepare()
+            self._prepared_for = self._store.parameters()
+
+    # -- values --------------------------------------------------------------
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """Return values, computed first where that is due."""
+        block = self._store.block(vrs)
+        self._update(vrs, block)
+        try:
+            return self._store.read(vrs, block)
+        except IndexError:
+            self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
+            return [math.nan] * len(vrs)
+
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """Return Integer values."""
+        return [int(value) if math.isfinite(value) else 0 for value in self.get_real(vrs)]
+
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """Return Boolean values."""
+        return [value != 0.0 for value in self.get_real(vrs)]
+
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """Return String values."""
+        return [self.strings.get(i, "") for i in vrs]
+
+    def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
+        """Set inputs, and parameters before the end of initialization."""
+        self._write("Real", vrs, values)
+
+    def set_integer(self, vrs: list[int], values: Sequence[int]) -> None:
+        """Set Integer parameters."""
+        self._write("Integer", vrs, values)
+
+    def set_boolean(self, vrs: list[int], values: Sequence[bool]) -> None:
+        """Set Boolean parameters."""
+        self._write("Boolean", vrs, values)
+
+    def set_string(self, vrs: list[int], values: Sequence[str]) -> None:
+        """Set String parameters."""
+        if self._accepts(vrs, "String"):
+            self.strings.update(zip(vrs, values, strict=True))
+
+    def _write(self, kind: Kind, vrs: list[int], values: Sequence[float]) -> None:
+        block = self._store.block(vrs)
+        if self._accepts(vrs, kind, block):
+            self._store.write(vrs, values, block)
+
+    def _accepts(self, vrs: list[int], kind: Kind, block: slice | None = None) -> bool:
+        """Tell whether FMI allows to set these now; if not, no step will follow."""
+        if self._mode == STEP:
+            end = max(vrs, default=-1) + 1 if block is None else block.stop
+            allowed = kind == "Real" and end <= self.layout.inputs.stop
+        else:
+            allowed = self.layout.settable[kind].issuperset(vrs)
+            self._unsolved = True
+        if not allowed:
+            names = [v.name for i, v in enumerate(self.layout.variables) if i in set(vrs)]
+            when = "after initialization" if self._mode == STEP else "at all, or not with this type"
+            self._misuse = self._misuse or f"{', '.join(names[:3]) or vrs} cannot be set {when}"
+            self._report(self._misuse, Fmi2Status.error)
+        return allowed
+
+    def _update(self, vrs: list[int], block: slice | None) -> None:
+        if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
+            self._solve()
+        for group in tuple(self._stale):
+            first, last = self.layout.lazy_span[group]
+            if block is not None and (block.stop <= first or last < block.start):
+                continue  # at a glance, for it is asked at every step
+            if not self.layout.lazy[group].isdisjoint(vrs):
+                problem = self._failure or attempt(self.observe, group)
+                if problem:
+                    self.values[list(self.layout.lazy[group])] = math.nan
+                    self._report(f"{group} not computed: {problem}", Fmi2Status.warning)
+                self._stale.discard(group)
+
+    # -- state ---------------------------------------------------------------
+
+    def _get_fmu_state(self) -> UnitState:
+        """Return the whole unit: values, texts, model, and where it stands."""
+        # parameters cannot change in the step mode
+        known = self._prepared_for
+        prepared = known is not None and (self._mode == STEP or known == self._store.parameters())
+        stale = sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale)
+        texts = [self._failure, self._misuse, *self.strings.values()]
+        model = self.model_state() if prepared else None
+        numbers = self._store.pack()
+        return UnitState(self._mode, prepared, self._unsolved, stale, self.start_time, numbers, texts, model)
+
+    def _set_fmu_state(self, state: UnitState | bytes) -> None:
+        problem = attempt(self._restore, state)
+        if problem:
+            self._misuse = problem
+            self._report(problem, Fmi2Status.error)
+
+    def _restore(self, state: UnitState | bytes) -> None:
+        if isinstance(state, bytes):
+            state = unpack(state, self.digest, 2 + len(self.strings), self.model_type)
+        self._store.unpack(state.values)
+        self._failure, self._misuse, *strings = state.texts
+        self.strings.update(zip(self.strings, strings, strict=True))
+        if state.prepared:
+            self._prepare_if_changed()
+        else:
+            self._prepared_for = None
+        if state.model is not None:
+            self.restore_model(state.model)
+        self._mode, self._unsolved, self.start_time = state.mode, state.unsolved, state.start_time
+        self._stale = {group for i, group in enumerate(self.layout.lazy) if state.stale >> i & 1}
+
+    @classmethod
+    def _fmu_state_to_bytes(cls, state: UnitState | bytes) -> bytes:  # pythonfmu asks the class
+        return state if isinstance(state, bytes) else state.pack(cls.digest)
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> bytes:
+        return state  # unpacked where it is restored, where a problem can be reported
+
+    def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
+        # the text passes through printf on its way out
+        self.log(f"{self.instance_name}: {message}".replace("%", "%%"), status)
+
+
+def _check_inputs(layout: Layout, inputs: np.ndarray) -> None:
+    # one pass: a single NaN or infinity spoils the sum of squares
+    if not math.isfinite(inputs.dot(inputs)):
+        bad = [layout.variables[i].name for i, x in enumerate(inputs) if not math.isfinite(x)]
+        more = f" and {len(bad) - _NAMED} more" if len(bad) > _NAMED else ""
+        raise UnitError(f"input {', '.join(bad[:_NAMED])}{more} is not a finite number")

@@ -1,0 +1,1 @@
+"""One case: a scenario prepared, executed and concluded, wherever it came from."""

@@ -1,0 +1,1 @@
+"""The command line ``bladeloss``: options, their help, and how a command ends."""

@@ -1,0 +1,115 @@
+"""``bladeloss campbell``: whirl frequencies over speed, and what reductions make of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich import box
+from rich.table import Table
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.linear.campbell import free_data, supported_data
+from orchestrator.linear.case import (
+    COLUMNS_EXPLAINED,
+    FULL,
+    HERTZ,
+    LinearCase,
+    error_text,
+    linear_case,
+    shaft_column,
+    whirl_name,
+    write_results,
+)
+from orchestrator.linear.operating_point import bearing_data
+from orchestrator.results.figures.campbell import free_figure, supported_figure
+from rotor_fmu.linear.analysis import WhirlError
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from rich.console import Console
+
+    from orchestrator.linear.case import LinearRequest
+
+TOLERANCE = 1e-4
+"""Errors up to this are written in green: no diagram shows them."""
+
+
+def run(request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float) -> int:
+    """Compute, print and write the diagram; returns the exit status.
+
+    Raises
+    ------
+    OrchestratorError
+        For anything wrong with the input, or modes that the shaft does not have.
+    """
+    case = linear_case(request, console)
+    if supported:
+        data = supported_data(case, count, highest)
+        bearings = bearing_data(case.operating_point, case.train, case.films)
+        write_results(case, [data, bearings], supported_table(case, data), supported_figure(data, case.train))
+        return 0
+    try:
+        data, iterations = free_data(case, count, highest)
+    except WhirlError as error:
+        raise OrchestratorError(f"--count {count}: {error}") from None
+    write_results(case, [data, iterations], free_table(case, data), free_figure(data, iterations, case.train))
+    return 0
+
+
+def free_table(case: LinearCase, data: xr.Dataset) -> Table:
+    """Largest error of each bending frequency over speed and direction, a row a mode."""
+    top = float(data["rotation"][-1])
+    size = data.attrs["degrees_of_freedom"]
+    table = Table(
+        title=f"Largest relative errors of the bending frequencies, 0 to {top:g} Hz of rotation, "
+        f"{case.shaft.size} degrees of freedom reduced to {size}",
+        box=box.SIMPLE_HEAD,
+        title_justify="left",
+    )
+    shafts = [str(name) for name in data["shaft"].values[1:]]
+    for name in ("mode", "at rest [Hz]", *shafts):
+        table.add_column(shaft_column(name), justify="right")
+    at_rest = data["frequency"].sel(shaft=FULL, direction="forward").isel(rotation=0).values
+    worst = abs(data["error"]).max(["rotation", "direction"])
+    for k, frequency in enumerate(at_rest):
+        errors = [float(worst.sel(shaft=name)[k]) for name in shafts]
+        table.add_row(str(k + 1), f"{frequency:.3f}", *(error_text(error, TOLERANCE) for error in errors))
+    table.add_section()
+    largest = [float(worst.sel(shaft=name).max()) for name in shafts]
+    table.add_row("all", "", *(error_text(error, TOLERANCE) for error in largest))
+    table.caption = (
+        f"{COLUMNS_EXPLAINED} Modal truncation is what plain IRS converges to: the floor set by leaving "
+        f"G out of its transformation. Green: up to {TOLERANCE:.0e}."
+    )
+    table.caption_justify = "left"
+    return table
+
+
+def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
+    """Modes at the speed nearest to the rated one, and the largest errors of each over speed."""
+    at = int(np.abs(data["rotation"].values - case.train.speed / HERTZ).argmin())
+    top, here = float(data["rotation"][-1]), float(data["rotation"][at])
+    methods = [str(name) for name in data["shaft"].values[1:]]
+    table = Table(
+        title=f"{case.train.name} on {case.films}: modes at {here:g} Hz of rotation, "
+        f"and largest error of an eigenvalue, 0 to {top:g} Hz",
+        box=box.SIMPLE_HEAD,
+        title_justify="left",
+    )
+    for name in ("mode", "Hz", "damping\nratio", "whirl", *methods):
+        table.add_column(shaft_column(name), justify="left" if name == "whirl" else "right")
+    modes, errors = data.sel(shaft=FULL).isel(rotation=at), data["error"].max("rotation")
+    for k, mode in enumerate(data["mode"].values):
+        table.add_row(
+            str(mode),
+            f"{float(modes['frequency'][k]):.3f}",
+            f"{float(modes['damping_ratio'][k]):.4f}",
+            whirl_name(float(modes["whirl_direction"][k])),
+            *(error_text(float(errors.sel(shaft=name)[k]), TOLERANCE) for name in methods),
+        )
+    largest = [float(errors.sel(shaft=name).max()) for name in methods]
+    table.add_section()
+    table.add_row("all", "", "", "", *(error_text(error, TOLERANCE) for error in largest))
+    table.caption, table.caption_justify = COLUMNS_EXPLAINED, "left"
+    return table

@@ -1,0 +1,1 @@
+"""FMUs as files and as running units, on fmpy."""

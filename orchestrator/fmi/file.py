@@ -1,0 +1,156 @@
+"""FMU files: each extracted once, described once, and shared by all of its instances."""
+
+from __future__ import annotations
+
+import ctypes
+import re
+import shutil
+import tempfile
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import fmpy
+
+from fmus.build.memoryless import is_memoryless
+from orchestrator.errors import FmuError
+from orchestrator.fmi.archive import LIMITS, ArchiveError, Limits, extract
+from orchestrator.fmi.xml import XmlError, read_xml
+
+_SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+")
+_IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+# Both are read by fmpy, which takes what XML can do.
+_DESCRIPTION, _SOURCES = "modelDescription.xml", "sources/buildDescription.xml"
+_FALLBACK = "/tmp"  # where TMPDIR has characters that hosts of Python FMUs trip over
+
+
+class FmuFile:
+    """An extracted FMU 2.0 for co-simulation.
+
+    Attributes
+    ----------
+    path : Path
+        The ``.fmu`` file.
+    folder : Path
+        Where it is extracted.
+    description : fmpy.model_description.ModelDescription
+        Its modelDescription.xml.
+    variables : dict
+        The description's scalar variables by name.
+    size : int
+        Bytes that it holds extracted.
+    memoryless : bool
+        Whether it says that its outputs follow from its inputs alone, see `fmus.build.memoryless`.
+
+    Raises
+    ------
+    FmuError
+        When the file is missing, no FMI 2.0 co-simulation unit, or could do harm when extracted or read.
+    """
+
+    def __init__(self, path: Path, folder: Path, limits: Limits = LIMITS) -> None:
+        self.path = path
+        self.folder = folder
+        try:
+            self.size = extract(path, folder, "FMU", limits)
+            self.memoryless = is_memoryless(read_xml(folder / _DESCRIPTION))
+            if (folder / _SOURCES).exists():
+                read_xml(folder / _SOURCES)
+            self.description: Any = fmpy.read_model_description(folder)
+        except FileNotFoundError as error:
+            if path.exists():
+                raise FmuError(f"{path}: not a valid FMU: without {Path(str(error.filename)).name}") from None
+            raise FmuError(f"{path}: no such file; `bladeloss build` makes the FMUs") from None
+        except ArchiveError as error:
+            raise FmuError(str(error)) from None
+        except XmlError as error:
+            raise FmuError(f"{path}: {error}") from None
+        except Exception as error:  # fmpy raises bare exceptions for a description that breaks the schema
+            raise FmuError(f"{path}: not a valid FMU: {error}") from None
+        if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:
+            raise FmuError(f"{path}: not an FMI 2.0 co-simulation unit")
+        identifier = str(self.description.coSimulation.modelIdentifier)
+        if not _IDENTIFIER.fullmatch(identifier):  # it names the library that is loaded
+            raise FmuError(
+                f"{path}: modelIdentifier {identifier!r}; allowed are letters, digits and underscores"
+            )
+        self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
+
+    @property
+    def is_python(self) -> bool:
+        """Whether the unit is Python in a library of pythonfmu, and takes Python's lock by itself."""
+        return (self.folder / "resources" / "slavemodule.txt").is_file()
+
+    @cached_property
+    def library(self) -> ctypes.CDLL:
+        """The FMU's C library.
+
+        Calls of a unit in Python keep Python's lock, which is quicker. Those of other units let go of it,
+        so that a watchdog can end a run whose unit does not come back.
+        """
+        name = f"{self.description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
+        kind = ctypes.PyDLL if self.is_python else ctypes.CDLL
+        return kind(str(self.folder / "binaries" / fmpy.platform / name))
+
+    def end_library(self) -> None:
+        """Let the library of an FMU in Python take leave of the interpreter; no instance may live any more.
+
+        Left to the end of the process, libraries of pythonfmu 0.7 do so after their static data are
+        gone: they write to freed memory, and one exit in some fifty aborts.
+        """
+        if "library" in self.__dict__ and hasattr(self.library, "finalizePythonInterpreter"):
+            self.library.finalizePythonInterpreter.restype = None
+            self.library.finalizePythonInterpreter()
+
+    @property
+    def can_keep_state(self) -> bool:
+        """Whether its state can be got and set, that is, whether a step can be taken back."""
+        return bool(self.description.coSimulation.canGetAndSetFMUstate)
+
+
+class FmuStore:
+    """Extracts FMU files on demand into one temporary folder, and removes it at the end."""
+
+    def __init__(self) -> None:
+        root = tempfile.gettempdir()
+        self._folder = Path(
+            tempfile.mkdtemp(prefix="bladeloss_", dir=root if _SAFE_PATH.fullmatch(root) else _FALLBACK)
+        )
+        self._files: dict[Path, FmuFile] = {}
+        self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
+
+    def open(self, path: Path) -> FmuFile:
+        """Return the extracted FMU at `path`; several calls share one extraction.
+
+        Raises
+        ------
+        FmuError
+            As `FmuFile`.
+        """
+        key = path.resolve()
+        if key not in self._files:
+            limits = replace(LIMITS, total=self._left)
+            self._files[key] = FmuFile(path, self._folder / f"fmu{len(self._files)}", limits)
+            self._left -= self._files[key].size
+        return self._files[key]
+
+    def close(self) -> None:
+        """Remove what was extracted; no instance may live any more."""
+        for file in self._files.values():
+            file.end_library()
+        self.remove()
+        self._files.clear()
+
+    def remove(self) -> None:
+        """Remove the files alone, where a unit is still in a call that does not end."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def __enter__(self) -> FmuStore:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()

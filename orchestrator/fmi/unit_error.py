@@ -1,0 +1,45 @@
+"""What a call to an FMU can come back with, and which end of a run that makes."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from fmus.unit.failure import FILM_FAILED
+from orchestrator.errors import OrchestratorError
+from orchestrator.outcome import Outcome
+
+
+class Status(IntEnum):
+    """fmi2Status."""
+
+    OK = 0
+    WARNING = 1
+    DISCARD = 2
+    ERROR = 3
+    FATAL = 4
+    PENDING = 5
+
+
+class UnitError(OrchestratorError):
+    """A call to an FMU that did not end with OK.
+
+    Attributes
+    ----------
+    unit : str
+        Name of the instance.
+    status : Status
+        What it returned; `Status.DISCARD` leaves a step that may be tried again.
+    outcome : Outcome
+        How a run ends that cannot go on from here.
+    """
+
+    def __init__(self, unit: str, call: str, status: Status, reason: str) -> None:
+        self.unit = unit
+        self.status = status
+        if status is not Status.DISCARD:
+            self.outcome = Outcome.UNIT_FAILED
+        elif FILM_FAILED in reason:
+            self.outcome = Outcome.FILM_FAILED
+        else:
+            self.outcome = Outcome.STEP_REFUSED
+        super().__init__(f"{unit}: {call} returned {status.name.lower()}" + (f": {reason}" if reason else ""))

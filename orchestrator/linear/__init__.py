@@ -1,0 +1,1 @@
+"""Linear investigations of a train on its linearised films."""

@@ -1,0 +1,249 @@
+"""What the linear investigations share: the train asked for, its operating point, their results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.fmi.trust import own_bearings, require_trust
+from orchestrator.linear.operating_point import OperatingPoint, operating_point
+from orchestrator.results.files import room_for
+from orchestrator.results.folder import check_folder, result_folder
+from orchestrator.results.record_files import netcdf
+from orchestrator.scenario.file import bundled_scenarios, load_scenario, scenario_toml, train_of
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.linear.analysis import (
+    DEFAULT_SIZE,
+    METHODS,
+    Method,
+    ReducedShaft,
+    ShaftModel,
+    reduced_shaft,
+    unreduced_shaft,
+)
+from rotor_fmu.train.file import load_train
+from rotor_fmu.train.train import Train
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+REDUCTIONS: tuple[Method, ...] = ("irs", "irs-plain", "guyan", "craig-bampton")
+assert set(REDUCTIONS) | {"none"} == set(METHODS)
+FULL = "unreduced"
+
+PLANAR = 0.2
+"""Whirl direction below which a mode is called planar."""
+
+_COLUMNS = {"irs": "IRS", "irs-plain": "IRS\nplain", "guyan": "Guyan", "craig-bampton": "CMS"}
+COLUMNS_EXPLAINED = "IRS: complemented, the default of runs; IRS plain: as published; CMS: Craig-Bampton."
+
+HERTZ = 2.0 * np.pi
+"""rad/s of one revolution a second."""
+
+
+@dataclass(frozen=True)
+class LinearRequest:
+    """What the command line asks for.
+
+    Attributes
+    ----------
+    command : str
+        Names folder and files.
+    source : str
+        Scenario or train.
+    depth : str or None
+        Depth of all films in place of the scenario's.
+    out : Path or None
+        Folder of the results; None: ``results/<source>-<command>``.
+    fmus : Path
+        Folder of the FMUs.
+    formats : sequence of str
+        File types of the figure.
+    trust : bool
+        Run FMUs of others without asking.
+    """
+
+    command: str
+    source: str
+    depth: str | None = None
+    out: Path | None = None
+    fmus: Path = Path("fmus")
+    formats: Sequence[str] = ("png",)
+    trust: bool = False
+
+    @property
+    def folder(self) -> Path:
+        """Where the results go."""
+        return self.out or Path("results") / f"{Path(self.source).stem}-{self.command}"
+
+
+@dataclass(frozen=True)
+class LinearCase:
+    """A train to be investigated.
+
+    Attributes
+    ----------
+    request : LinearRequest
+        What was asked for.
+    scenario : Scenario
+        Names depths and unbalance.
+    train : Train
+        The train.
+    console : rich.console.Console
+        For what happens meanwhile.
+    """
+
+    request: LinearRequest
+    scenario: Scenario
+    train: Train
+    console: Console
+
+    @property
+    def shaft(self) -> ShaftModel:
+        """The unreduced shaft."""
+        return unreduced_shaft(self.train)
+
+    def reduced(self, method: Method) -> ReducedShaft:
+        """The shaft under a reduction."""
+        return reduced_shaft(self.train, method, self.size)
+
+    @property
+    def size(self) -> int:
+        """Degrees of freedom to which the shaft is reduced: as in runs, but of a small shaft half its own."""
+        return min(DEFAULT_SIZE, self.shaft.size // 2)
+
+    @property
+    def shafts(self) -> dict[str, ShaftModel | ReducedShaft]:
+        """Unreduced, then reduced by every method."""
+        shafts: dict[str, ShaftModel | ReducedShaft] = {FULL: self.shaft}
+        return shafts | {method: self.reduced(method) for method in REDUCTIONS}
+
+    @cached_property
+    def operating_point(self) -> OperatingPoint:
+        """Linearised bearings at rated speed; FMUs are built where missing."""
+        depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
+        require_trust(own_bearings(self.scenario), self.request.fmus, trust=self.request.trust)
+        ensure_fmus(self.request.fmus, self.train, depths, self.console)
+        return operating_point(self.scenario, self.train, self.request.fmus)
+
+    @property
+    def unbalance(self) -> NDArray[np.complex128]:
+        """Nominal unbalance of each wheel, U exp(i phase) in kg m."""
+        settings, train = self.scenario.unbalance, self.train
+        if settings.grade is not None:
+            train = replace(train, balance_grade=settings.grade)
+        amounts = np.array(train.nominal_unbalance)
+        phases = np.array([wheel.unbalance_phase for wheel in self.train.wheels])
+        for index, wheel in enumerate(self.train.wheels):
+            if wheel.name in settings.at:
+                amounts[index], phases[index] = (
+                    settings.at[wheel.name].unbalance,
+                    settings.at[wheel.name].phase,
+                )
+        return np.asarray(amounts * np.exp(1j * phases))
+
+    @property
+    def films(self) -> str:
+        """The films in words."""
+        depths = {self.scenario.depth, *self.scenario.depth_at.values()}
+        name = self.scenario.depth.upper() if len(depths) == 1 else "mixed depths"
+        return f"films {name}, linearised at {self.train.speed / HERTZ:g} Hz"
+
+
+def linear_case(request: LinearRequest, console: Console) -> LinearCase:
+    """Read what is to be investigated: a scenario, or a train under the settings of a plain scenario.
+
+    Raises
+    ------
+    OrchestratorError, TrainFileError
+        For anything wrong with the input or with the folder of the results.
+    """
+    overrides = {"depth": request.depth, "depth_at": None} if request.depth else {}
+    path = Path(request.source)
+    is_scenario = path.suffix == ".toml" and path.name != "train.toml"
+    if request.source in bundled_scenarios() or is_scenario:
+        scenario = load_scenario(request.source, overrides)
+        train = train_of(scenario)
+    else:
+        train = load_train(request.source)
+        settings: dict[str, Any] = {"train": request.source, "end": 1.0, "title": f"Train {train.name}"}
+        scenario = Scenario.model_validate(settings | ({"depth": request.depth} if request.depth else {}))
+    check_folder(request.folder, f"{request.command}.nc")
+    return LinearCase(request, scenario, train, console)
+
+
+def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, figure: Figure | None) -> None:
+    """Write the data as NetCDF and CSV, the table as text and the figure; say what and where.
+
+    Parameters
+    ----------
+    case : LinearCase
+        What was investigated.
+    data : sequence of xarray.Dataset
+        The first is named as the command, others by their attribute ``name``.
+    table : rich.table.Table
+        Printed, and written as text.
+    figure : matplotlib.figure.Figure or None
+        Drawn in every format asked for.
+    """
+    request = case.request
+    case.console.print(table)
+    written: list[str] = []
+    with room_for(data, request.folder), result_folder(request.folder) as fresh:
+        for index, dataset in enumerate(data):
+            name = request.command if index == 0 else str(dataset.attrs["name"])
+            described = dataset.assign_attrs(
+                {"train": case.train.name, "scenario": scenario_toml(case.scenario), **dataset.attrs}
+            )
+            (fresh / f"{name}.nc").write_bytes(netcdf(described))
+            write_table(described, fresh / f"{name}.csv")
+            written += [f"{name}.nc", f"{name}.csv"]
+        with (fresh / f"{request.command}.txt").open("w", encoding="utf-8") as file:
+            Console(file=file, width=120).print(table)
+        written.append(f"{request.command}.txt")
+        for kind in request.formats if figure is not None else ():
+            assert figure is not None
+            FigureCanvasAgg(figure)
+            figure.savefig(fresh / f"{request.command}.{kind}")
+            written.append(f"{request.command}.{kind}")
+    for name in written:
+        case.console.print(str(request.folder / name), highlight=False, soft_wrap=True)
+
+
+def write_table(data: xr.Dataset, path: Path) -> None:
+    """Write a dataset as one long table: a line for every combination of coordinates, units in the head."""
+    frame = data.to_dataframe().reset_index()
+    units = {name: data[name].attrs.get("units", "") for name in frame.columns if name in data.variables}
+    frame.columns = [f"{name} [{units[name]}]" if units.get(name) else str(name) for name in frame.columns]
+    frame.to_csv(path, index=False, float_format="%.10g", lineterminator="\n")
+
+
+def whirl_name(direction: float) -> str:
+    """Whirl direction, from -1 to 1, in a word and a number."""
+    if abs(direction) < PLANAR:
+        return f"planar   {direction:+.2f}"
+    return f"{'forward' if direction > 0.0 else 'backward':8s} {direction:+.2f}"
+
+
+def shaft_column(name: str) -> str:
+    """A shaft as the head of a table's column names it."""
+    kind, comma, variant = name.partition(", ")
+    return _COLUMNS.get(kind, kind.replace(" ", "\n")) + (
+        f"\n{variant.replace('iterations', 'it.')}" if comma else ""
+    )
+
+
+def error_text(error: float, good: float) -> str:
+    """A relative error; green up to what is good."""
+    return f"[green]{error:.0e}[/green]" if error <= good else f"{error:.0e}"

@@ -1,0 +1,125 @@
+"""The contract of a coupling scheme."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.master.graph import Graph, Group
+from orchestrator.master.rollback import Rollback
+from orchestrator.master.system import Wiring
+
+if TYPE_CHECKING:
+    from orchestrator.master.system import System
+
+
+class Advance(NamedTuple):
+    """A macro step that was carried out.
+
+    Attributes
+    ----------
+    iterations : int
+        Times that the units exchanged values in it.
+    defect : ndarray
+        At the end of the step, what the units' inputs lacked of the outputs that they are connected to.
+        Of a train (bearings, 4): wrench of the bearings less the one that the rotor was moved by, the
+        error estimate of the coupling. Overwritten by the next step.
+    """
+
+    iterations: int
+    defect: NDArray[np.float64]
+
+
+class NotConverged(OrchestratorError):
+    """An iteration over a macro step that did not reach its tolerance; a smaller step may."""
+
+
+class Coupled(Protocol):
+    """What a scheme needs of a system of units; `System` and `tests.orchestrator.loop.Loop` are such."""
+
+    @property
+    def graph(self) -> Graph:
+        """Units and the values that travel between them."""
+
+    @property
+    def groups(self) -> Sequence[Group]:
+        """Groups of mutually independent units, in the order of the flow through the system."""
+
+    @property
+    def rollback(self) -> Rollback:
+        """The way back to the start of a step."""
+
+    def defect(self) -> NDArray[np.float64]:
+        """Return the defect of the interface at the newest values."""
+
+    def relative(self, defect: NDArray[np.float64]) -> float:
+        """Return the size of a defect against what is transmitted; not a number where it is none."""
+
+
+class Coupling(Protocol):
+    """A scheme that carries a system over macro steps.
+
+    Its start values are the outputs that the system's groups fetched last, and it leaves those at
+    the end of the step there.  What it keeps from step to step only speeds it up, and is in `memory`.
+    """
+
+    @property
+    def name(self) -> str:
+        """Name in scenarios."""
+
+    @property
+    def wiring(self) -> Wiring:
+        """What the bearings must give the rotor."""
+
+    @property
+    def iterates(self) -> bool:
+        """Whether it repeats a step until the defect meets its tolerance; then it sets the mark itself."""
+
+    @property
+    def memory(self) -> dict[str, NDArray[Any]]:
+        """What it keeps from step to step, as arrays by name; setting it continues where it was got."""
+
+    @memory.setter
+    def memory(self, arrays: dict[str, NDArray[Any]]) -> None: ...
+
+    def advance(self, system: System, time: float, step: float) -> Advance:
+        """Carry the system from `time` to `time + step`.
+
+        Raises
+        ------
+        UnitError
+            When a unit does not accept the step.
+        NotConverged
+            When iterations do not reach the tolerance.
+        """
+
+
+class Memoryless:
+    """A scheme that takes each step once and keeps nothing."""
+
+    iterates = False
+
+    @property
+    def memory(self) -> dict[str, NDArray[Any]]:
+        """Nothing."""
+        return {}
+
+    @memory.setter
+    def memory(self, arrays: dict[str, NDArray[Any]]) -> None:
+        pass
+
+
+class Sequential(Memoryless):
+    """One group after the other, each on the newest values."""
+
+    def advance(self, system: Coupled, time: float, step: float) -> Advance:
+        """Feed, step and read group by group."""
+        for group in system.groups:
+            group.feed()
+            group.step(time, step)
+            group.fetch()
+        return Advance(1, system.defect())

@@ -1,0 +1,13 @@
+"""Gauss-Seidel: one group after the other, each on the newest values (Busch 2012, section 3.2)."""
+
+from __future__ import annotations
+
+from orchestrator.master.coupling.base import Sequential
+from orchestrator.master.system import Wiring
+
+
+class GaussSeidel(Sequential):
+    """Explicit and sequential, rotor then bearings; force only."""
+
+    name = "gauss-seidel"
+    wiring = Wiring.FORCE

@@ -1,0 +1,214 @@
+"""Step control: carries a system over an interval in one step, or in halves of halves of it.
+
+Steps are the interval divided by powers of two, so that units which keep what depends on the
+step size keep little.  A step whose defect exceeds the tolerance, whose iteration does not
+converge, or that a unit discards is taken back and halved; steps grow again when the film is
+calm, in pairs, so that they always end on the interval's end.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.fmi.unit import Status, UnitError
+from orchestrator.master.coupling import Advance, Coupling, NotConverged
+from orchestrator.master.system import Array, System
+
+DEEPEST = 10
+"""Halvings of a macro step at most; the shortest step is 1/1024 of it."""
+
+CALM = 1.0 / 8.0
+"""Share of the tolerance below which the defect, of second order in the step, allows twice the step."""
+
+EASY = 3
+"""Passes of an iterating scheme up to which twice the step is tried."""
+
+
+@dataclass
+class StepCounts:
+    """What the step control did.
+
+    Attributes
+    ----------
+    accepted, rejected, discarded : int
+        Steps that count; steps taken back for their defect or for lack of convergence, and because a
+        unit did not accept them.
+    iterations : int
+        Passes through the units in all accepted steps.
+    shortest : float
+        Shortest accepted step in s.
+    largest_relative_defect : float
+        Over all accepted steps, see `System.relative`.
+    """
+
+    accepted: int = 0
+    rejected: int = 0
+    discarded: int = 0
+    iterations: int = 0
+    shortest: float = math.inf
+    largest_relative_defect: float = 0.0
+
+    @property
+    def taken_back(self) -> int:
+        """Steps taken back."""
+        return self.rejected + self.discarded
+
+    def attributes(self, evaluations: int) -> dict[str, float]:
+        """Attributes of the record, with the steps of bearing units in all."""
+        return {
+            "accepted_steps": self.accepted,
+            "rejected_steps": self.rejected,
+            "discarded_steps": self.discarded,
+            "iterations": self.iterations,
+            "evaluations": evaluations,
+            "shortest_step": self.shortest if self.accepted else 0.0,
+            "largest_relative_defect": self.largest_relative_defect,
+        }
+
+
+class StepFailure(OrchestratorError):
+    """A step that cannot be carried out even at the shortest size.
+
+    Attributes
+    ----------
+    bearing : str
+        Where it fails the most; empty where that is not known.
+    """
+
+    def __init__(self, text: str, bearing: str = "") -> None:
+        self.bearing = bearing
+        super().__init__(f"{bearing}: {text}" if bearing else text)
+
+
+class ToleranceMissed(StepFailure):
+    """The defect, or the residual of an iteration, stays above the tolerance."""
+
+
+class NotFinite(StepFailure):
+    """The motion is no longer finite."""
+
+
+class Stepper:
+    """Carries a system over intervals.
+
+    Parameters
+    ----------
+    system : System
+        Out of Initialization Mode, outputs fetched.
+    scheme : Coupling
+        How it is carried over a step.
+    tolerance : float or None
+        Largest relative defect of a step of a scheme that does not iterate; None accepts every step
+        that the units accept.
+    on_step : callable
+        Called after each accepted step with its start, its end and its `Advance`.
+
+    Attributes
+    ----------
+    counts : StepCounts
+        What was done so far.
+    level : int
+        Halvings of the interval in use.
+    scheme : Coupling
+        As given.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        scheme: Coupling,
+        tolerance: float | None,
+        on_step: Callable[[float, float, Advance], None],
+    ) -> None:
+        if tolerance is not None or scheme.iterates:
+            system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
+        self._system, self.scheme, self._on_step = system, scheme, on_step
+        self._tolerance = None if scheme.iterates else tolerance
+        self._marks = not scheme.iterates and system.rollback.possible
+        self.counts = StepCounts()
+        self.level = 0
+
+    def cross(self, start: float, end: float, length: float) -> None:
+        """Carry the system over an interval; its length is given besides, free of rounding.
+
+        Raises
+        ------
+        StepFailure, UnitError
+            When even the shortest step fails; the system stands at the last accepted one.
+        """
+        done = 0
+        while done < 2**self.level:
+            step = length / 2**self.level
+            last = done + 1 == 2**self.level
+            easy = self._attempt(start + done * step, end if last else start + (done + 1) * step, step)
+            if easy is None:
+                self.level += 1
+                done *= 2
+                continue
+            done += 1
+            if easy and self.level and done % 2 == 0:
+                self.level -= 1
+                done //= 2
+
+    def _attempt(self, time: float, end: float, step: float) -> bool | None:
+        """Take a step; whether twice of it would do, or None if it was taken back."""
+        if self._marks:
+            self._system.rollback.mark()
+        try:
+            advance = self.scheme.advance(self._system, time, step)
+            size = self._system.relative(advance.defect)
+            problem = self._problem(advance.defect, size, step)
+        except NotConverged as error:
+            problem = ToleranceMissed(f"{error}, with a step of {step:.3g} s")
+        except UnitError as error:
+            if error.status is not Status.DISCARD or not self._system.rollback.possible:
+                raise
+            self._system.rollback.take_back()
+            self.counts.discarded += 1
+            if self.level == DEEPEST:
+                raise
+            return None
+        if problem is not None:
+            if self._system.rollback.possible:
+                self._system.rollback.take_back()
+            self.counts.rejected += 1
+            if self.level == DEEPEST or (self._tolerance is None and not self.scheme.iterates):
+                raise problem
+            return None
+        self._count(advance, step, size)
+        self._on_step(time, end, advance)
+        if self.scheme.iterates:
+            return advance.iterations <= EASY
+        return self._tolerance is None or size <= CALM * self._tolerance
+
+    def _problem(self, defect: Array, size: float, step: float) -> StepFailure | None:
+        system = self._system
+        if not (math.isfinite(size) and math.isfinite(system.journals.sum())):
+            motion = np.column_stack([system.journals, system.forces])
+            return NotFinite(
+                "the motion of the journal is not finite after the step",
+                self._name(np.count_nonzero(~np.isfinite(motion), axis=1)),
+            )
+        if self._tolerance is not None and size > self._tolerance:
+            return ToleranceMissed(
+                f"relative defect {size:.3g} with a step of {step:.3g} s, allowed is {self._tolerance:.3g}",
+                self._name(np.max(np.abs(defect) / system.scale(), axis=1)),
+            )
+        return None
+
+    def _name(self, badness: ArrayLike) -> str:
+        """Name of the bearing of the largest value."""
+        return self._system.bearings[int(np.argmax(badness))].name
+
+    def _count(self, advance: Advance, step: float, size: float) -> None:
+        counts = self.counts
+        counts.accepted += 1
+        counts.iterations += advance.iterations
+        counts.shortest = min(counts.shortest, step)
+        counts.largest_relative_defect = max(counts.largest_relative_defect, size)

@@ -1,0 +1,225 @@
+"""The train as a system of units: one rotor and its bearings, connected by the port."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmus import port
+from orchestrator.errors import PortError
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.graph import Connection, Graph, Group
+from orchestrator.master.rollback import Rollback
+from rotor_fmu.train.wording import likely
+
+Array = NDArray[np.float64]
+
+RESPONSE = {v.name: index for index, v in enumerate(port.BEARING_OUTPUTS)}
+"""Column of each bearing output in `System.responses`."""
+
+_BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
+_BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
+_OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
+_TANGENT = slice(RESPONSE[port.K[0]], RESPONSE[port.C[-1]] + 1)
+_FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
+_PER_LAW = len(port.LAW)
+_PER_JOURNAL = len(port.JOURNAL)
+
+
+class Wiring(Enum):
+    """What a coupling carries from the bearings to the rotor."""
+
+    LAW = "affine law"
+    FORCE = "force only"
+
+
+class System:
+    """Rotor and bearings with the values that travel between them.
+
+    Parameters
+    ----------
+    rotor : Unit
+        Carries `port.rotor` for these bearings.
+    bearings : sequence of Unit
+        In the order of the rotor's bearings.
+    wiring : Wiring
+        What the bearings give the rotor.
+
+    Raises
+    ------
+    PortError
+        Listing every variable of the port that a unit lacks or declares differently.
+
+    Attributes
+    ----------
+    journals : ndarray (bearings, 8)
+        q and v of each journal, the rotor's outputs.
+    responses : ndarray (bearings, 52)
+        The bearings' outputs, columns as in `RESPONSE`.
+    laws : ndarray (bearings, 36)
+        F0, K, C that the rotor was given last.
+    groups : tuple of Group
+        Rotor and bearings, in the order of a sequential coupling.
+    rollback : Rollback
+        The way back to the start of a step.
+    """
+
+    def __init__(self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW) -> None:
+        n = len(bearings)
+        check_port(rotor, bearings)
+        self.rotor = rotor
+        self.bearings = tuple(bearings)
+        self.wiring = wiring
+        rotor_inputs = (port.SPEED, *_at_bearings(n, port.LAW))
+        rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
+        self.graph = Graph(
+            [
+                (rotor, rotor_inputs, rotor_outputs),
+                *((bearing, _BEARING_INPUTS, _BEARING_OUTPUTS) for bearing in bearings),
+            ],
+            port_connections(rotor.name, [b.name for b in bearings], wiring),
+        )
+        inputs, outputs = self.graph.inputs, self.graph.outputs
+        self.journals: Array = outputs[: n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
+        self.responses: Array = outputs[n * _PER_JOURNAL :].reshape(n, len(_BEARING_OUTPUTS))
+        self.laws: Array = inputs[1 : 1 + n * _PER_LAW].reshape(n, _PER_LAW)
+        self._rotor_speed = inputs[:1]
+        self.bearing_inputs: Array = inputs[1 + n * _PER_LAW :].reshape(n, len(_BEARING_INPUTS))
+        self.rotor_group: Group = self.graph.group([rotor.name])
+        self.bearing_group: Group = self.graph.group([b.name for b in bearings])
+        self.groups = (self.rotor_group, self.bearing_group)
+        self.rollback = Rollback(self.units, self.graph)
+        self._defect = np.empty((n, 4))
+        self._reaction = np.empty((n, 2, 4, 1))
+        self._loads, self._levers = np.ones(n), np.ones(n)
+
+    @property
+    def units(self) -> tuple[Unit, ...]:
+        """Rotor and bearings."""
+        return (self.rotor, *self.bearings)
+
+    @property
+    def forces(self) -> Array:
+        """Wrench of each bearing on the rotor (bearings, 4), a view."""
+        return self.responses[:, _FORCE]
+
+    @property
+    def tangents(self) -> Array:
+        """Stiffness and damping [K C] that the bearings returned last (bearings, 4, 8), a copy."""
+        square = self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
+        return np.concatenate([square[:, 0], square[:, 1]], axis=2)
+
+    def set_scale(self, load: float, levers: Iterable[float]) -> None:
+        """Say what wrenches are measured by.
+
+        Parameters
+        ----------
+        load : float
+            Least scale of a bearing's force in N, such as the mean static load.
+        levers : iterable of float
+            For each bearing the lever in m that makes a scale of moments of it, such as the width.
+        """
+        self._loads[:] = load
+        self._levers[:] = list(levers)
+
+    def scale(self) -> Array:
+        """Return what wrenches are measured by now (bearings, 4): the load, or the force where larger."""
+        force = self._force_scale()
+        moment = force * self._levers
+        return np.stack([force, force, moment, moment], axis=1)
+
+    def relative(self, defect: Array) -> float:
+        """Return the largest component of a defect against `scale`."""
+        # Without making the array of scales, which takes three times as long; this is asked at every step.
+        largest = np.abs(defect).reshape(-1, 2, 2).max(axis=2)
+        largest[:, 1] /= self._levers
+        return float((largest.max(axis=1) / self._force_scale()).max())
+
+    def _force_scale(self) -> Array:
+        return np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
+
+    def set_speed(self, speed: float) -> None:
+        """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
+        self._rotor_speed[0] = speed
+        self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
+
+    def defect(self) -> Array:
+        """Return F(q, v) - (F0 - K q - C v) at the newest state with the law that the rotor used.
+
+        Returns
+        -------
+        ndarray (bearings, 4)
+            Overwritten by the next call.
+        """
+        tangents = self.laws[:, 4:].reshape(-1, 2, 4, 4)
+        np.matmul(tangents, self.journals.reshape(-1, 2, 4, 1), out=self._reaction)
+        np.subtract(self.forces, self.laws[:, :4], out=self._defect)
+        self._defect += self._reaction[:, 0, :, 0]
+        self._defect += self._reaction[:, 1, :, 0]
+        return self._defect
+
+    def close(self) -> None:
+        """Free all units."""
+        self.bearing_group.close()
+        self.rollback.close()
+        for unit in self.units:
+            unit.close()
+
+
+def port_connections(rotor: str, bearings: Sequence[str], wiring: Wiring) -> Iterator[Connection]:
+    """Connections of the port between units of these names."""
+    sources = port.LAW if wiring is Wiring.LAW else port.FORCE
+    for index, bearing in enumerate(bearings, 1):
+        for name in port.JOURNAL:
+            yield Connection(rotor, port.at_bearing(index, name), bearing, name)
+        for output, name in zip(sources, port.LAW, strict=False):
+            yield Connection(bearing, output, rotor, port.at_bearing(index, name))
+
+
+def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
+    """Compare the units with the port.
+
+    Raises
+    ------
+    PortError
+        One line for each variable that is missing or differs in causality or unit.
+    """
+    by_name = {v.name: v for v in port.rotor([b.name for b in bearings], (), 0)}
+    needed = (port.SPEED, *_at_bearings(len(bearings), (*port.LAW, *port.JOURNAL)))
+    problems = list(_differences(rotor, (by_name[name] for name in needed)))
+    seen = set()
+    for bearing in bearings:
+        if bearing.file not in seen:
+            seen.add(bearing.file)
+            problems += _differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS, *_OFFSETS))
+    surplus = port.at_bearing(len(bearings) + 1, port.JOURNAL[0])
+    if surplus in rotor.file.variables:
+        problems.append(f"{rotor.file.path}: has more than the {len(bearings)} bearings of the train")
+    if problems:
+        raise PortError("\n".join(problems))
+
+
+def _differences(unit: Unit, variables: Iterable[port.Variable]) -> Iterator[str]:
+    variables = tuple(variables)
+    others = unit.file.variables.keys() - {variable.name for variable in variables}
+    for wanted in variables:
+        found = unit.file.variables.get(wanted.name)
+        where = f"{unit.file.path}: {wanted.name}"
+        if found is None:
+            hint = likely(wanted.name, sorted(others)).strip()
+            kind = f"{wanted.causality}, {wanted.unit or 'dimensionless'}"
+            yield f"{where} is missing ({kind})" + (f"; {hint}" if hint else "")
+        elif found.causality != wanted.causality or found.type != wanted.kind:
+            yield f"{where} is {found.causality} {found.type}, not {wanted.causality} {wanted.kind}"
+        elif (found.unit or "") not in ("", wanted.unit):
+            yield f"{where} is in {found.unit}, not in {wanted.unit or 'no unit'}"
+
+
+def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:
+    names = tuple(names)
+    for index in range(1, count + 1):
+        for name in names:
+            yield port.at_bearing(index, name)

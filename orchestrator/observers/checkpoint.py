@@ -1,0 +1,216 @@
+"""A run on disk, complete enough to go on to the bit: units, values between them, record, step control.
+
+A checkpoint is one file.  It is written beside the last one, flushed to the disk and put in its
+place by a rename, so that at any moment there is one whole checkpoint or none.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.master.start.equilibrium import Start
+from orchestrator.master.stepping import StepCounts, Stepper
+from orchestrator.master.system import System
+
+Arrays = dict[str, NDArray[Any]]
+
+FILE = "checkpoint.npz"
+_VERSION = 1
+
+
+class Keeper(Protocol):
+    """What watches a run and keeps something of it: record, ledger."""
+
+    def arrays(self) -> Arrays:
+        """Return all that it holds."""
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from there."""
+
+
+class CheckpointError(OrchestratorError):
+    """A checkpoint that is missing, damaged, or belongs to other FMUs."""
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A saved run.
+
+    Attributes
+    ----------
+    path : Path
+        Its file.
+    about : dict
+        What the command needs to go on: scenario, folders, options.
+    meta : dict
+        Macro step, step control, evaluations, identity of the FMUs.
+    arrays : dict
+        Everything numerical.
+    """
+
+    path: Path
+    about: dict[str, Any]
+    meta: dict[str, Any]
+    arrays: Arrays
+
+    @property
+    def time(self) -> float:
+        """Simulated time that was reached in s."""
+        return float(self.meta["time"])
+
+    def start(self) -> Start:
+        """The start of the run."""
+        return Start(**{field.name: self.arrays[f"start.{field.name}"] for field in fields(Start)})
+
+    def restore_units(self, system: System) -> None:
+        """Put the units of a freshly assembled system where they were.
+
+        Raises
+        ------
+        CheckpointError
+            When an FMU is not the one of the checkpoint.
+        """
+        for index, unit in enumerate(system.units):
+            saved, found = self.meta["fmus"][index], str(unit.file.description.guid)
+            if saved != found:
+                raise CheckpointError(
+                    f"{self.path}: made with another {unit.file.path.name} ({saved}, not {found}); "
+                    "build the FMUs of that version, or start anew"
+                )
+            unit.resume(self.arrays[f"unit{index}"].tobytes())
+            unit.evaluations = int(self.meta["evaluations"][index])
+        system.graph.inputs[:] = self.arrays["inputs"]
+        system.graph.outputs[:] = self.arrays["outputs"]
+
+    def restore_run(self, stepper: Stepper, keepers: Mapping[str, Keeper]) -> int:
+        """Put step control and what watches the run where they were; return the number of the macro step."""
+        stepper.level = int(self.meta["level"])
+        stepper.counts = StepCounts(**self.meta["counts"])
+        stepper.scheme.memory = _without_prefix("scheme.", self.arrays)
+        for name, keeper in keepers.items():
+            keeper.restore(_without_prefix(f"{name}.", self.arrays))
+        return int(self.meta["step"])
+
+
+@dataclass
+class Checkpoints:
+    """Writes checkpoints of a run at regular intervals.
+
+    Attributes
+    ----------
+    folder : Path
+        Where the file lies.
+    every : float
+        Simulated time from one to the next in s.
+    about : mapping
+        Kept with it, see `Checkpoint.about`.
+    warn : callable
+        Told of a checkpoint that could not be written.
+    """
+
+    folder: Path
+    every: float
+    about: Mapping[str, Any]
+    warn: Callable[[str], None] = print
+    _last: float = float("-inf")
+
+    def save(
+        self,
+        instant: tuple[int, float],
+        system: System,
+        stepper: Stepper,
+        keepers: Mapping[str, Keeper],
+        start: Start,
+        *,
+        last: bool = False,
+    ) -> None:
+        """Write the run as it stands at the end of a macro step, if a checkpoint is due or the `last`.
+
+        The first must succeed; later ones may fail, for want of room, without harm to the run or to the
+        checkpoint before.
+
+        Raises
+        ------
+        CheckpointError
+            When the first cannot be written.
+        """
+        step, time = instant
+        # Half a millionth of the interval forgives the rounding of instants.
+        if not last and time < self._last + self.every * (1.0 - 5e-7):
+            return
+        meta = {
+            "version": _VERSION,
+            "step": step,
+            "time": time,
+            "level": stepper.level,
+            "counts": asdict(stepper.counts),
+            "evaluations": [unit.evaluations for unit in system.units],
+            "fmus": [str(unit.file.description.guid) for unit in system.units],
+            "about": dict(self.about),
+        }
+        arrays: Arrays = {"inputs": system.graph.inputs, "outputs": system.graph.outputs}
+        for index, unit in enumerate(system.units):
+            arrays[f"unit{index}"] = np.frombuffer(unit.state_bytes(), dtype=np.uint8)
+        arrays |= {f"start.{name}": value for name, value in vars(start).items()}
+        arrays |= {f"scheme.{name}": value for name, value in stepper.scheme.memory.items()}
+        for keeper, watching in keepers.items():
+            arrays |= {f"{keeper}.{name}": value for name, value in watching.arrays().items()}
+        path = self.folder / FILE
+        try:
+            write(path, meta, arrays)
+        except OSError as error:
+            if self._last == float("-inf"):
+                raise CheckpointError(f"{path}: cannot be written: {error}") from None
+            self.warn(f"{path}: no checkpoint at t = {time:.6g} s, the one before stays: {error}")
+        self._last = time
+
+
+def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
+    """Write a checkpoint's file: whole, or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    fresh = path.with_name(path.name + ".part")
+    text = np.frombuffer(json.dumps(meta).encode(), dtype=np.uint8)
+    try:
+        with fresh.open("wb") as file:
+            np.savez(file, meta=text, **arrays)  # type: ignore[arg-type]
+            file.flush()
+            os.fsync(file.fileno())
+        fresh.replace(path)
+    finally:
+        fresh.unlink(missing_ok=True)
+
+
+def read(folder: Path) -> Checkpoint:
+    """Read the checkpoint in a folder.
+
+    Raises
+    ------
+    CheckpointError
+        When there is none, or it cannot be read.
+    """
+    path = folder / FILE
+    if not path.is_file():
+        raise CheckpointError(f"{path}: no such file; only a run with --checkpoint can be resumed")
+    try:
+        with np.load(path) as stored:
+            arrays: Arrays = {name: stored[name] for name in stored.files}
+        meta = json.loads(arrays.pop("meta").tobytes())
+        version = meta["version"]
+    except Exception as error:  # zipfile, numpy and json have their own each
+        raise CheckpointError(f"{path}: not a readable checkpoint: {error}") from None
+    if version != _VERSION:
+        raise CheckpointError(f"{path}: of version {version}; this program reads version {_VERSION}")
+    return Checkpoint(path, meta["about"], meta, arrays)
+
+
+def _without_prefix(prefix: str, arrays: Arrays) -> Arrays:
+    return {name.removeprefix(prefix): value for name, value in arrays.items() if name.startswith(prefix)}

@@ -1,0 +1,148 @@
+"""The energy ledger: what the films gave the shaft, what it received, and what the coupling made of it.
+
+At each bearing the wrench of the film runs, within a step, linearly between its values at both ends;
+the one that the rotor was moved by runs linearly between those of its law.  With the journal's
+displacement d over the step of length H and its velocities v0, v1, ::
+
+    work = (w0 + w1) d / 2 + (w1 - w0) (v1 - v0) H / 12
+
+which is exact for a wrench linear and a motion cubic in time.  Where a journal is pressed into its shell
+the rotor holds part of the wrench at its mean (`rotor_fmu.vibration.affine_step`), and the last term is
+smaller by that share, which the rotor does not tell: received work and residue of such a bearing are
+estimates, and the whole shaft's account below is exact.  The film's work includes solid contact, shown
+besides.  The residue is what the rotor received beyond what the films gave: energy that the
+coupling created, or lost where it is negative.
+
+Over the whole shaft the energy stored changes by what the bearings and the unbalance do less what
+damping takes; the rotor keeps these accounts exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmus import port
+from orchestrator.fmi.unit import Block
+from orchestrator.master.system import RESPONSE, System
+
+Array = NDArray[np.float64]
+
+COLUMNS = ("film", "contact", "received", "exchanged")
+"""Per bearing: work of film and contact together, its part of contact, the work that the rotor was moved
+by, and the film's work with every step counted positive."""
+
+_CONTACT = slice(RESPONSE["contact.Fx"], RESPONSE["contact.My"] + 1)
+
+
+@dataclass(frozen=True)
+class Balance:
+    """The ledger of a run, in J.
+
+    Attributes
+    ----------
+    bearings : ndarray (bearings, 4)
+        Columns as in `COLUMNS`.
+    stored : float
+        Change of the energy in the shaft: kinetic, strain, gravity.
+    bearing_work, unbalance, damping : float
+        Works on the shaft by the rotor's exact account; damping is what it lost.
+    """
+
+    bearings: Array
+    stored: float
+    bearing_work: float
+    unbalance: float
+    damping: float
+
+    @property
+    def residue(self) -> Array:
+        """What the rotor received at each bearing beyond the film's work (bearings,)."""
+        return self.bearings[:, 2] - self.bearings[:, 0]
+
+    @property
+    def exchanged(self) -> float:
+        """Work that went through all films, steps counted positive."""
+        return float(self.bearings[:, 3].sum())
+
+    @property
+    def gap(self) -> float:
+        """Energy stored less the works of films and unbalance and what damping took: 0 where all closes."""
+        return self.stored - float(self.bearings[:, 0].sum()) - self.unbalance + self.damping
+
+    @property
+    def relative_gap(self) -> float:
+        """`gap` against the work exchanged."""
+        return self.gap / self.exchanged if self.exchanged > 0.0 else 0.0
+
+
+class Ledger:
+    """Keeps the ledger of a run, step by step.
+
+    Parameters
+    ----------
+    system : System
+        Its rotor with ``track_work``.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._works = np.zeros((len(system.bearings), len(COLUMNS)))
+        self._before = self._values()
+        self._rotor = np.empty(len(port.ENERGY) + len(port.WORK))
+        self._block = Block(system.rotor, (*port.ENERGY, *port.WORK), self._rotor)
+        self._first = np.zeros_like(self._rotor)
+
+    def begin(self) -> None:
+        """Take the start of the run."""
+        self._before = self._values()
+        self._block.get()
+        self._first[:] = self._rotor
+
+    def watch(self, step: float) -> None:
+        """Enter an accepted step of this length."""
+        before, now = self._before, self._values()
+        moved, turned = now[0][:, :4] - before[0][:, :4], now[0][:, 4:] - before[0][:, 4:]
+
+        def work(first: Array, last: Array) -> Array:
+            mean, change = (first + last) / 2.0, (last - first) / 12.0
+            return np.sum(mean * moved + change * turned * step, axis=1)
+
+        film = work(before[1], now[1])
+        self._works[:, 0] += film
+        self._works[:, 1] += work(before[2], now[2])
+        self._works[:, 2] += work(self._law(before[0]), self._law(now[0]))
+        self._works[:, 3] += np.abs(film)
+        self._before = now
+
+    def balance(self) -> Balance:
+        """Return the ledger up to now."""
+        self._block.get()
+        stored, works = np.split(self._rotor - self._first, [len(port.ENERGY)])
+        return Balance(self._works.copy(), float(stored.sum()), *(float(work) for work in works))
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """All that it holds, by name."""
+        before = {f"before{k}": values for k, values in enumerate(self._before)}
+        return {"works": self._works, "first": self._first, **before}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what `arrays` returned."""
+        self._works[:], self._first[:] = arrays["works"], arrays["first"]
+        self._before = (arrays["before0"], arrays["before1"], arrays["before2"])
+
+    def _values(self) -> tuple[Array, Array, Array]:
+        """Journals, wrenches, and their parts from contact."""
+        system = self._system
+        return system.journals.copy(), system.forces.copy(), system.responses[:, _CONTACT].copy()
+
+    def _law(self, journals: Array) -> Array:
+        """Wrenches of the laws that the rotor used last."""
+        laws = self._system.laws
+        tangent = laws[:, 4:].reshape(-1, 2, 4, 4)
+        motion = journals.reshape(-1, 2, 4, 1)
+        return laws[:, :4] - np.matmul(tangent, motion).sum(axis=1)[..., 0]

@@ -1,0 +1,157 @@
+"""Watches every macro step and keeps what is recorded, in memory set aside beforehand.
+
+Between two records nothing is lost of the extremes: the largest forces and the least
+gaps of every macro step enter the next record.  The largest values of the whole run are
+kept besides, with their instants.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.fmi.unit import Block
+from orchestrator.master.system import RESPONSE, System
+
+Array = NDArray[np.float64]
+
+EXTREMES = ("force_magnitude", "moment_magnitude", "least_gap", "centre_line_gap", "contact_force", "defect")
+"""Quantities whose extremes are kept; the gaps' least, the others' largest."""
+
+_SIGN = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])
+_WATCHED = [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force")]
+_KEPT = [index for name, index in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))]
+KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
+"""Bearing outputs in the record: all but the affine law."""
+
+SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")
+FIELDS = ("x", "y", "amplitude", "stress")
+_KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields")
+
+
+class Recorder:
+    """Records of a run.
+
+    Parameters
+    ----------
+    system : System
+        Watched after each of its macro steps.
+    nodes : int
+        Nodes of the shaft.
+    steps : int
+        Macro steps of the run.
+    stride : int
+        Macro steps from one record to the next; the start and the last step are always recorded.
+
+    Attributes
+    ----------
+    size : int
+        Records so far.
+    peaks, peak_times : ndarray (bearings, 6)
+        Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
+    """
+
+    def __init__(self, system: System, nodes: int, steps: int, stride: int) -> None:
+        bearings, capacity = len(system.bearings), math.ceil(steps / stride) + 2
+        self._system = system
+        self._steps, self._stride = steps, stride
+        self.size = 0
+        self._times = np.empty(capacity)
+        self._journals = np.empty((capacity, bearings, 8))
+        self._responses = np.empty((capacity, bearings, len(KEPT)))
+        self._extremes = np.empty((capacity, bearings, len(EXTREMES)))
+        self._shaft = np.empty((capacity, len(SHAFT)))
+        self._fields = np.empty((capacity, len(FIELDS), nodes), dtype=np.float32)
+        self._now = np.empty((bearings, len(EXTREMES)))
+        self._since = np.full_like(self._now, -np.inf)
+        self._peaks = np.full_like(self._now, -np.inf)
+        self.peak_times = np.zeros_like(self._now)
+        self._shaft_values = np.empty(len(SHAFT) + len(FIELDS) * nodes)
+        names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
+        self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
+
+    def watch(self, time: float, defect: Array | None = None) -> None:
+        """Note the extremes of the system as it stands at `time` after a step, or at the start."""
+        now, responses = self._now, self._system.responses
+        np.hypot(responses[:, 0], responses[:, 1], out=now[:, 0])
+        np.hypot(responses[:, 2], responses[:, 3], out=now[:, 1])
+        np.multiply(responses[:, _WATCHED], _SIGN[2:5], out=now[:, 2:5])
+        if defect is None:
+            now[:, 5] = 0.0
+        else:
+            np.hypot(defect[:, 0], defect[:, 1], out=now[:, 5])
+        np.maximum(self._since, now, out=self._since)
+        higher = now > self._peaks
+        if higher.any():
+            self._peaks[higher] = now[higher]
+            self.peak_times[higher] = time
+
+    def record(self, step: int, time: float) -> None:
+        """Keep a record at `time`, the end of macro step `step`, if one is due; 0 for the start."""
+        if step % self._stride == 0 or step == self._steps:
+            self._keep(time)
+
+    def close(self, time: float) -> None:
+        """Keep a record of where a run stopped before its time, unless there is one."""
+        if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
+            self._keep(time)
+
+    def _keep(self, time: float) -> None:
+        k = self.size
+        self._times[k] = time
+        self._journals[k] = self._system.journals
+        self._responses[k] = self._system.responses[:, _KEPT]
+        np.multiply(self._since, _SIGN, out=self._extremes[k])
+        self._since[:] = -np.inf
+        self._shaft_block.get()
+        self._shaft[k] = self._shaft_values[: len(SHAFT)]
+        self._fields[k] = self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1)
+        self.size = k + 1
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """What was kept so far, by name; views."""
+        kept = {name: getattr(self, f"_{name}")[: self.size] for name in _KEPT_ARRAYS}
+        return kept | {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what `arrays` returned."""
+        self.size = len(arrays["times"])
+        for name in _KEPT_ARRAYS:
+            getattr(self, f"_{name}")[: self.size] = arrays[name]
+        self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
+        self.peak_times[:] = arrays["peak_times"]
+
+    @property
+    def times(self) -> Array:
+        """Instants of the records, (records,)."""
+        return self._times[: self.size]
+
+    @property
+    def journals(self) -> Array:
+        """Motion q, v of the journals, (records, bearings, 8)."""
+        return self._journals[: self.size]
+
+    def response(self, name: str) -> Array:
+        """Bearing output `name`, one of `KEPT`, (records, bearings)."""
+        return self._responses[: self.size, :, KEPT.index(name)]
+
+    def extreme(self, name: str) -> Array:
+        """Extreme of one of `EXTREMES` since the record before, (records, bearings)."""
+        return self._extremes[: self.size, :, EXTREMES.index(name)]
+
+    @property
+    def peaks(self) -> Array:
+        """Extremes of the whole run, (bearings, 6)."""
+        return self._peaks * _SIGN
+
+    def shaft(self, name: str) -> Array:
+        """Rotor output `name`, one of `SHAFT`, (records,)."""
+        return self._shaft[: self.size, SHAFT.index(name)]
+
+    def field(self, name: str) -> NDArray[np.float32]:
+        """Rotor output ``node[:].name``, one of `FIELDS`, (records, nodes)."""
+        return self._fields[: self.size, FIELDS.index(name)]

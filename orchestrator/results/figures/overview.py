@@ -1,0 +1,76 @@
+"""All bearings at a glance: force and least gap over time, one row a bearing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from orchestrator.results import quantities
+
+from orchestrator.results import statistics
+from orchestrator.results.figures import panels
+from orchestrator.results.figures import style
+from orchestrator.results.figures.least_gap import draw_contact, gap_ceiling
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+
+def overview(records: Sequence[xr.Dataset]) -> Figure:
+    """Draw force (left) and least gap (right) of every bearing over the whole time.
+
+    Gaps are cut off at a multiple of those before the event: what matters happens near zero.
+
+    Parameters
+    ----------
+    records : sequence of xarray.Dataset
+        One run or several of the same scenario, drawn over one another.  All rows of a
+        column share their scale, so that bearings compare.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    names = [str(name) for name in records[0]["bearing"].values]
+    analysed = statistics.analysed_bearing(records[0])
+    view = panels.whole_run(records)
+    forces = quantities.FORCE.fitting(max(float(abs(record["force"]).max()) for record in records))
+    figure = style.new_figure(
+        12.0,
+        1.8 + 0.95 * len(names),
+        "All bearings: force and least gap",
+        style.run_caption(records[0]) if len(records) == 1 else str(records[0].attrs.get("title", "")),
+    )
+    grid = figure.subplots(len(names), 2, sharex=True, sharey="col", squeeze=False)
+    for row, name in enumerate(names):
+        for record in records:
+            time = np.asarray(record["time"].values, dtype=float)
+            colour = style.colour_of(style.depth_at(record, name))
+            label = style.depth_name(style.depth_at(record, name))
+            force = statistics.magnitude(record, "force", name)
+            gap = statistics.series(record, "least_gap", name)
+            for axes, samples, extreme, quantity in (
+                (grid[row, 0], force, "force_magnitude_max", forces),
+                (grid[row, 1], gap, "least_gap_min", quantities.GAP),
+            ):
+                extremes = statistics.interval_extreme(record, extreme, name, samples)
+                curve = panels.Curve(time, samples, colour, label, extremes, width=0.5)
+                panels.draw_curve(axes, view, curve, quantity)
+            draw_contact(grid[row, 1], view, record, name, height=0.08)
+        for axes in grid[row]:
+            panels.draw_event(axes, view, records[0], named=False)
+            style.dress(axes)
+            panels.time_axis(axes, view, labelled=row == len(names) - 1)
+        grid[row, 0].set_ylabel(
+            name, rotation=0, ha="right", va="center", fontweight="bold" if name == analysed else "normal"
+        )
+    for column, quantity in enumerate((forces, quantities.GAP)):
+        grid[0, column].set_title(quantity.axis, loc="left", fontsize=style.FONT)
+    panels.scale_panels(list(grid[:, 0]), above=0.05)
+    ceiling = gap_ceiling(records, names, ("least_gap",))
+    panels.scale_panels(list(grid[:, 1]), above=0.05, below=0.1, ceiling=ceiling)
+    panels.legend_below(figure, list(grid.flat))
+    return figure

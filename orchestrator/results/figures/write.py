@@ -1,0 +1,72 @@
+"""Write all figures that a run gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from orchestrator.results.figures.deformed_train import deformed_train
+from orchestrator.results.figures.forces_and_moments import forces_and_moments
+from orchestrator.results.figures.least_gap import least_gap
+from orchestrator.results.figures.normal_stress import normal_stress
+from orchestrator.results.figures.overview import overview
+from orchestrator.results.figures.vibration_amplitude import vibration_amplitude
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from rotor_fmu.train.train import Train
+
+FORMATS = ("png", "pdf", "svg")
+
+
+def write_figures(
+    records: Sequence[xr.Dataset],
+    folder: Path,
+    *,
+    train: Train | None = None,
+    bearing: str | None = None,
+    formats: Sequence[str] = ("png",),
+) -> list[Path]:
+    """Draw and write every figure.
+
+    Parameters
+    ----------
+    records : sequence of xarray.Dataset
+        One run, or several of the same scenario to be compared, each with two samples at least.
+    folder : Path
+        Made if missing.
+    train : Train, optional
+        For the drawing of the shaft.
+    bearing : str, optional
+        The analysed bearing; by default chosen by `orchestrator.results.statistics.analysed_bearing`.
+    formats : sequence of str
+        File types out of `FORMATS`.
+
+    Returns
+    -------
+    list of Path
+        The files written, in the order of the paper's figures.
+    """
+    drawings: dict[str, Callable[[], Figure]] = {
+        "deformed-train": lambda: deformed_train(records, train),
+        "forces-and-moments": lambda: forces_and_moments(records, bearing),
+        "least-gap": lambda: least_gap(records, bearing),
+        "vibration-amplitude": lambda: vibration_amplitude(records),
+        "normal-stress": lambda: normal_stress(records),
+        "all-bearings": lambda: overview(records),
+    }
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, draw in drawings.items():
+        figure = draw()
+        FigureCanvasAgg(figure)
+        for kind in formats:
+            path = folder / f"{name}.{kind}"
+            figure.savefig(path)
+            written.append(path)
+    return written

@@ -1,0 +1,1 @@
+"""The scenario: what is simulated, read and checked."""

@@ -1,0 +1,200 @@
+"""Read a scenario: bundled or from a TOML file, every problem of the file reported at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from orchestrator.errors import ScenarioError
+from orchestrator.scenario.problems import (
+    file_problems,
+    name_problems,
+    shape_problems,
+    time_problems,
+    unbalance_problems,
+)
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.file import TrainFileError, bundled_trains, load_train
+from rotor_fmu.train.toml_source import Location, Problem, TomlError, TomlSource, read_toml
+from rotor_fmu.train.train import Train
+from rotor_fmu.train.wording import choice
+
+_SCENARIOS = Path(__file__).parent / "bundled"
+
+
+def bundled_scenarios() -> tuple[str, ...]:
+    """Names of the scenarios that come with the package."""
+    return tuple(sorted(path.stem for path in _SCENARIOS.glob("*.toml")))
+
+
+def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None) -> Scenario:
+    """Read and check a scenario.
+
+    Parameters
+    ----------
+    source : str or Path
+        Name of a bundled scenario (see `bundled_scenarios`) or path of a TOML file.
+    overrides : mapping, optional
+        Values that replace those of the file, in the shape of the file: ``{"depth": "v2",
+        "depth_at": {"LP1-rear": "v1"}, "end": 0.5}``. Tables are merged key by key, and None
+        takes a key out: ``{"event": None}``.
+
+    Returns
+    -------
+    Scenario
+
+    Raises
+    ------
+    ScenarioError
+        With one line for each problem of the file: file, key, value, what is allowed.
+    """
+    path = Path(source)
+    if str(source) in bundled_scenarios():
+        path = _SCENARIOS / f"{source}.toml"
+    elif not path.exists():
+        known = choice(str(source), bundled_scenarios())
+        raise ScenarioError(str(source), [f"no such scenario; {known}, or the path of a TOML file"])
+    try:
+        toml = read_toml(path)
+    except TomlError as error:
+        raise ScenarioError(str(source), [str(error)]) from None
+    return _checked(toml, overrides or {}, path.parent, str(source))
+
+
+def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
+    """Read a scenario from TOML text; relative paths count from `folder`, `source` names it in errors.
+
+    Raises
+    ------
+    ScenarioError
+        As in `load_scenario`.
+    """
+    try:
+        toml = TomlSource(text)
+    except TomlError as error:
+        raise ScenarioError(source, [str(error)]) from None
+    return _checked(toml, {}, folder, source)
+
+
+def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with values replaced and checked as in `load_scenario`.
+
+    Raises
+    ------
+    ScenarioError
+        When the values do not fit.
+    """
+    raw = scenario.model_dump(mode="json", exclude_defaults=True)
+    nothing = TomlSource("")  # the problems have no lines
+    return _checked(nothing, replaced(raw, overrides), scenario.folder, scenario.title or "scenario")
+
+
+def train_of(scenario: Scenario) -> Train:
+    """Read the train of a scenario.
+
+    Raises
+    ------
+    TrainFileError
+        When it cannot be read.
+    """
+    return load_train(_train_path(scenario.train, scenario.folder))
+
+
+def scenario_toml(scenario: Scenario) -> str:
+    """TOML text of a scenario, its defaults spelt out; reading it gives the scenario again."""
+    return "\n".join(_toml_lines(scenario.model_dump(mode="json", exclude_none=True), ())) + "\n"
+
+
+def _checked(toml: TomlSource, overrides: Mapping[str, Any], folder: Path, source: str) -> Scenario:
+    """Return what a file says with overrides in place of its values, or raise with all problems."""
+    raw = replaced(toml.raw, overrides)
+    problems: list[Problem] = []
+    scenario = train = None
+    try:
+        if "folder" in raw:
+            problems.append((("folder",), "folder: unknown key"))
+        scenario = Scenario.model_validate({**raw, "folder": folder})
+    except ValidationError as error:
+        problems += shape_problems(error)
+    if isinstance(raw.get("train"), str):
+        try:
+            train = load_train(_train_path(raw["train"], folder))
+        except TrainFileError as error:
+            problems += ((("train",), f"train = {raw['train']!r}: {text}") for text in error.problems)
+    if train is not None:
+        problems += name_problems(raw, train)
+    problems += file_problems(raw, folder)
+    if train is not None and scenario is not None:
+        problems += time_problems(scenario, train)
+        problems += unbalance_problems(scenario, train)
+    if scenario is None or problems:
+        # An override stands on no line.
+        places = (((), text) if _holds(overrides, at) else (at, text) for at, text in problems)
+        raise ScenarioError(source, list(toml.located(places)))
+    return scenario
+
+
+def _holds(overrides: Mapping[str, Any], location: Location) -> bool:
+    """Whether the value at a location is an override, which stands on no line of the file."""
+    value: Any = overrides
+    for step in location:
+        if not isinstance(value, Mapping):
+            return True
+        if step not in value:
+            return False
+        value = value[step]
+    return True
+
+
+def _train_path(train: str, folder: Path) -> str | Path:
+    return train if train in bundled_trains() else folder / train
+
+
+def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge overrides into what a file says, table by table; None takes a key out.
+
+    A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.
+    """
+    fixed = {} if overrides.keys().isdisjoint(("step", "coupling")) else {"tolerance": None}
+    return _merged(raw, {**fixed, **overrides})
+
+
+def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge tables key by key; None takes a key out."""
+    result = dict(base)
+    for key, value in changes.items():
+        if isinstance(value, Mapping):
+            inner = result.get(key)
+            result[key] = _merged(inner if isinstance(inner, Mapping) else {}, value)
+        elif value is None:
+            result.pop(key, None)
+        else:
+            result[key] = value
+    return result
+
+
+def _toml_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    """Write scalars first, then tables: enough of TOML for a scenario."""
+    scalars = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    if path and scalars:
+        yield f"\n[{'.'.join(_toml_text(part) for part in path)}]"
+    for key, value in scalars.items():
+        yield f"{_toml_text(key)} = {_toml_value(value)}"
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _toml_lines(value, (*path, key))
+
+
+def _toml_text(text: str) -> str:
+    plain = text.replace("_", "").replace("-", "")
+    return text if plain.isascii() and plain.isalnum() else _toml_value(text)
+
+
+def _toml_value(value: str | float) -> str:
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+        return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped) + '"'
+    return str(value).lower() if isinstance(value, bool) else repr(value)

@@ -1,0 +1,101 @@
+"""From scenario and train to FMU parameters; the only place that knows both sides."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from fmus import port
+from orchestrator.scenario.scenario import FilmResolution, Scenario, is_fmu
+from rotor_fmu.train.train import BearingSeat, Train
+
+Values = dict[str, float | int | bool | str]
+
+
+def rotor_file(train: Train) -> str:
+    """Return the file name of the rotor FMU of a train."""
+    return "rotor.fmu" if train.name == "turbine" else f"rotor_{train.name}.fmu"
+
+
+def bearing_path(scenario: Scenario, bearing: str, fmus: Path) -> Path:
+    """Return the path of the FMU of a bearing: of its depth in the folder `fmus`, or the user's own."""
+    depth = scenario.depth_of(bearing)
+    return scenario.folder / depth if is_fmu(depth) else fmus / f"bearing_{depth}.fmu"
+
+
+def rotor_parameters(scenario: Scenario, train: Train) -> Values:
+    """Parameters of the rotor: reduction, nominal unbalance, blade fracture.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Its balance grade scales the train's nominal unbalance, its overrides replace it wheel by wheel.
+    train : Train
+        Wheels in the order of the rotor's.
+
+    Returns
+    -------
+    dict
+        Values by variable name.
+    """
+    values: Values = {"reduction": scenario.reduction}
+    if scenario.ledger:
+        values["track_work"] = True
+    grade, event = scenario.unbalance.grade, scenario.event
+    if grade is not None:
+        train = replace(train, balance_grade=grade)
+    values["fracture.time"] = scenario.end if event is None else event.time
+    for index, (wheel, nominal) in enumerate(zip(train.wheels, train.nominal_unbalance, strict=True), 1):
+        unbalance, phase = nominal, wheel.unbalance_phase
+        override = scenario.unbalance.at.get(wheel.name)
+        if override is not None:
+            unbalance, phase = override.unbalance, override.phase
+        lost = event if event is not None and event.wheel == wheel.name else None
+        values[f"wheel[{index}].unbalance"] = unbalance
+        values[f"wheel[{index}].unbalance_phase"] = phase
+        values[f"wheel[{index}].blade_unbalance"] = 0.0 if lost is None else lost.unbalance
+        values[f"wheel[{index}].blade_phase"] = 0.0 if lost is None else lost.phase
+    return values
+
+
+def bearing_parameters(seat: BearingSeat, film: FilmResolution) -> Values:
+    """Parameters of a bearing of any depth: geometry, oil, contact, resolution.
+
+    Parameters
+    ----------
+    seat : BearingSeat
+        The bearing in the train.
+    film : FilmResolution
+        For depths that solve the Reynolds equation.
+
+    Returns
+    -------
+    dict
+        Values by variable name.
+    """
+    return {
+        "diameter": seat.diameter,
+        "width": seat.width,
+        "clearance": seat.clearance,
+        "viscosity": seat.viscosity,
+        "ambient_pressure": seat.ambient_pressure,
+        "contact.roughness": seat.roughness,
+        "contact.modulus": seat.contact_modulus,
+        "contact.friction": seat.friction,
+        "film.columns": film.columns,
+        "film.rows": film.rows,
+    }
+
+
+def offset_names() -> tuple[str, ...]:
+    """Names of a bearing's offsets."""
+    return tuple(f"offset.{name}" for name in port.POSITION)
+
+
+def start_names(bearings: int, part: str) -> tuple[str, ...]:
+    """Names of the rotor's start positions; `part` is empty, ``_cos`` or ``_sin``."""
+    return tuple(
+        port.at_bearing(index, f"start.{name}{part}")
+        for index in range(1, bearings + 1)
+        for name in port.POSITION
+    )

@@ -1,0 +1,191 @@
+"""The words for what is wrong with a scenario: one line each, with what is allowed and a likely spelling."""
+
+from __future__ import annotations
+
+import math
+import os
+import typing
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from orchestrator.scenario.scenario import Scenario, is_fmu
+from rotor_fmu.train.toml_source import Problem
+from rotor_fmu.train.train import Train
+from rotor_fmu.train.wording import choice, refusal, shown
+
+STEPS_PER_REVOLUTION = 10
+"""Least number of macro steps in a revolution: below it the unbalance itself is not resolved."""
+
+MOST_STEPS = 1e9
+"""Of a run: a day for a train whose step takes a tenth of a millisecond."""
+
+_BYTES_AT_BEARING = 8 * 30
+_BYTES_AT_NODE = 4 * 4
+"""Of one sample of the record, see `orchestrator.observers.recorder`."""
+
+
+def shape_problems(error: ValidationError) -> Iterator[Problem]:
+    """Yield what pydantic found: unknown and missing keys, wrong types, values out of range."""
+    for problem in error.errors():
+        path = [str(part) for part in problem["loc"]]
+        where, kind = ".".join(path), problem["type"]
+        if kind == "extra_forbidden":
+            text = f"{where}: unknown key; {choice(path[-1], _keys_at(path[:-1]))}"
+        elif kind == "missing":
+            text = f"{where}: missing; it must be given"
+        elif kind == "literal_error":
+            value = problem["input"]
+            text = f"{where} = {shown(value)}; {choice(str(value), _literals(path))}"
+        else:
+            text = refusal(where, problem, _description(path))
+        yield problem["loc"], text
+
+
+def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[Problem]:
+    """Yield names of wheels and bearings that the train does not have."""
+    wheels = {wheel.name: "wheel" for wheel in train.wheels}
+    bearings = {bearing.name: "bearing" for bearing in train.bearings}
+    others = wheels | bearings | {coupling.name: "coupling" for coupling in train.couplings}
+
+    def unknown(name: str, kind: str, allowed: Iterable[str]) -> str:
+        other = f" ({name!r} is a {others[name]})" if name in others else ""
+        return f"no such {kind}{other}; {choice(name, allowed)}"
+
+    for name in _table(raw, "depth_at"):
+        if name not in bearings:
+            yield ("depth_at", name), f"depth_at.{name}: {unknown(name, 'bearing', bearings)}"
+    for name in _table(_table(raw, "unbalance"), "at"):
+        if name not in wheels:
+            yield ("unbalance", "at", name), f"unbalance.at.{name}: {unknown(name, 'wheel', wheels)}"
+    analysed = raw.get("analysed_bearing")
+    if isinstance(analysed, str) and analysed not in bearings:
+        text = unknown(analysed, "bearing", bearings)
+        yield ("analysed_bearing",), f"analysed_bearing = {analysed!r}: {text}"
+    wheel = _table(raw, "event").get("wheel")
+    if isinstance(wheel, str) and wheel not in wheels:
+        yield ("event", "wheel"), f"event.wheel = {wheel!r}: {unknown(wheel, 'wheel', wheels)}"
+
+
+def unbalance_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield unbalances that are more than the whole wheel has at its radius."""
+    given: list[tuple[tuple[str, ...], str, float]] = [
+        (("unbalance", "at", name), name, at.unbalance) for name, at in scenario.unbalance.at.items()
+    ]
+    if scenario.event is not None:
+        given.append((("event",), scenario.event.wheel, scenario.event.unbalance))
+    wheels = {wheel.name: wheel for wheel in train.wheels}
+    for location, name, unbalance in given:
+        wheel = wheels.get(name)
+        most = 0.5 * wheel.mass * wheel.mean_diameter if wheel else 0.0
+        if 0.0 < most < unbalance:
+            yield (
+                (*location, "unbalance"),
+                f"{'.'.join(location)}.unbalance = {unbalance!r}; allowed is at most {most:.4g} kg m, all of "
+                f"wheel {name!r} at its mean radius; did you give kg mm?",
+            )
+
+
+def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield contradictions between the times of the scenario and of the train."""
+    longest = 2.0 * math.pi / train.speed / STEPS_PER_REVOLUTION
+    if scenario.step > longest:
+        yield (
+            ("step",),
+            f"step = {scenario.step!r}; allowed is at most a tenth of a revolution of train "
+            f"{train.name!r}, {longest:.3g} s",
+        )
+    if scenario.step < scenario.end / MOST_STEPS:
+        yield (
+            ("step",),
+            f"step = {scenario.step!r}; allowed is at least {scenario.end / MOST_STEPS:.3g} s, a billionth "
+            "of the run, which would never end",
+        )
+    if scenario.step > scenario.end:
+        yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
+    if scenario.event is not None and scenario.event.time >= scenario.end:
+        yield (
+            ("event", "time"),
+            f"event.time = {scenario.event.time!r}; allowed is a time before the end, {scenario.end!r} s "
+            "(take out [event] for a run without blade fracture)",
+        )
+    size = record_size(scenario, train)
+    memory = _memory()
+    if size > memory:
+        interval = max(scenario.record.interval, scenario.step) * size / memory
+        yield (
+            ("end",),
+            f"end = {scenario.end!r}; its record takes {size / 1e9:.3g} GB, and this machine has "
+            f"{memory / 1e9:.3g}; allowed is an earlier end, or a record.interval from {interval:.2g} s on",
+        )
+
+
+def record_size(scenario: Scenario, train: Train) -> float:
+    """Bytes of the record of a run."""
+    samples = scenario.end / max(scenario.record.interval, scenario.step)
+    return samples * (len(train.bearings) * _BYTES_AT_BEARING + train.nodes * _BYTES_AT_NODE)
+
+
+def _memory() -> float:
+    """Bytes of the machine, or no limit where it does not tell."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return math.inf
+
+
+def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
+    """Yield FMUs of the user that are not there."""
+    for name, depth in _table(raw, "depth_at").items():
+        if isinstance(depth, str) and is_fmu(depth) and not (folder / depth).is_file():
+            yield ("depth_at", name), f"depth_at.{name} = {depth!r}: no such file"
+
+
+def _literals(path: list[str]) -> tuple[str, ...]:
+    """What is allowed where a literal is expected."""
+    model, key = _owner(path)
+    allowed = typing.get_args(model.model_fields[key].annotation) if model else ()
+    if all(isinstance(a, str) for a in allowed):
+        return allowed
+    literal, *_ = typing.get_args(allowed[-1])  # a table whose values are depths or files
+    return (*typing.get_args(literal), "the path of an .fmu file")
+
+
+def _description(path: list[str]) -> str | None:
+    """Unit and usual slip of a key."""
+    model, key = _owner(path)
+    return model.model_fields[key].description if model and key == path[-1] else None
+
+
+def _table(raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    value = raw.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def _keys_at(path: list[str]) -> list[str]:
+    model: type[BaseModel] | None = Scenario
+    if path:
+        owner, key = _owner(path)
+        model = _model_of(owner.model_fields[key].annotation) if owner else None
+    return [k for k, field in model.model_fields.items() if not field.exclude] if model else []
+
+
+def _owner(path: list[str]) -> tuple[type[BaseModel] | None, str]:
+    """Return the model that holds the last key of `path` that is a field, and that key."""
+    model: type[BaseModel] | None = Scenario
+    owner, last = model, path[0]
+    for key in path:
+        if model is None or key not in model.model_fields:
+            continue  # the name of an entry of a table
+        owner, last = model, key
+        model = _model_of(model.model_fields[key].annotation)
+    return owner, last
+
+
+def _model_of(annotation: Any) -> type[BaseModel] | None:
+    for candidate in (annotation, *typing.get_args(annotation)):
+        if isinstance(candidate, type) and issubclass(candidate, BaseModel):
+            return candidate
+    return None

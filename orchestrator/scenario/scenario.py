@@ -1,0 +1,199 @@
+"""The scenario: what is simulated, how deep, and how it is coupled and recorded.
+
+The models below are the specification of the scenario TOML.  They know nothing of
+files or trains; `orchestrator.scenario.file` reads them and checks them against the
+train.  SI units and rad.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
+
+Depth = Literal["v1", "v2", "v3"]
+Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
+CouplingName = Literal["linear-implicit", "newton", "iqn-ils", "gauss-seidel", "jacobi"]
+
+DEPTHS: tuple[str, ...] = get_args(Depth)
+REDUCTIONS: tuple[str, ...] = get_args(Reduction)
+COUPLINGS: tuple[str, ...] = get_args(CouplingName)
+
+
+def is_fmu(depth: str) -> bool:
+    """Whether a depth is the path of an FMU, somebody's own bearing, and none of `DEPTHS`."""
+    return depth.endswith(".fmu")
+
+
+def _or_fmu(value: Any, check: ValidatorFunctionWrapHandler) -> Any:
+    return value if isinstance(value, str) and is_fmu(value) else check(value)
+
+
+DepthOrFmu = Annotated[Depth, WrapValidator(_or_fmu)]
+"""A depth, or the path of an FMU with the port of a bearing."""
+
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Interval = Annotated[float, Field(ge=1e-9, le=1e6, allow_inf_nan=False, description="s")]
+NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Angle = Annotated[
+    float, Field(ge=-6.3, le=6.3, allow_inf_nan=False, description="rad; did you give degrees?")
+]
+Grade = Annotated[float | None, Field(ge=0.0, le=0.1, allow_inf_nan=False, description="m/s; G2.5 is 2.5e-3")]
+
+
+class _Model(BaseModel):
+    """Immutable; an unknown key is an error, and true or "1" are no numbers."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class WheelUnbalance(_Model):
+    """Nominal unbalance of one wheel in place of what the balance grade gives.
+
+    Attributes
+    ----------
+    unbalance : float
+        Mass times eccentricity in kg m.
+    phase : float
+        Angle at t = 0 in rad.
+    """
+
+    unbalance: NotNegative
+    phase: Angle = 0.0
+
+
+class Unbalance(_Model):
+    """Nominal unbalance of the train.
+
+    Attributes
+    ----------
+    grade : float or None
+        Balance grade e Ω in m/s (G2.5 is 2.5e-3); None takes the train's own.
+    at : dict
+        Overrides by the name of the wheel.
+    """
+
+    grade: Grade = None
+    at: dict[str, WheelUnbalance] = {}
+
+
+class BladeFracture(_Model):
+    """A blade breaks off: the unbalance of its wheel jumps.
+
+    Attributes
+    ----------
+    wheel : str
+        Name of the wheel.
+    unbalance : float
+        Mass of the lost part times its radius, in kg m.
+    phase : float
+        Angle of the added unbalance at t = 0, in rad.
+    time : float
+        Instant in s; it need not fall on a macro step.
+    """
+
+    wheel: str
+    unbalance: Positive
+    phase: Angle = 0.0
+    time: NotNegative
+
+
+class FilmResolution(_Model):
+    """Resolution of the films that solve the Reynolds equation.
+
+    Attributes
+    ----------
+    columns : int
+        Around the circumference.
+    rows : int
+        Along the axis.
+    """
+
+    columns: Annotated[int, Field(ge=16, le=512)] = 48
+    rows: Annotated[int, Field(ge=3, le=30)] = 8
+
+
+class RecordSettings(_Model):
+    """What is kept.
+
+    Attributes
+    ----------
+    interval : float
+        Time between two records in s, rounded to whole macro steps and never less than one. The extremes of
+        every macro step between two records are kept whatever the interval.
+    """
+
+    interval: Interval = 5e-4
+
+
+class Scenario(_Model):
+    """One run.
+
+    Attributes
+    ----------
+    title : str
+        Heads summary and figures.
+    train : str
+        Name of a bundled train, or a train's TOML relative to the scenario's file.
+    reduction : str
+        Reduction of the shaft, one of `REDUCTIONS`.
+    depth : str
+        Modelling depth of every bearing, one of `DEPTHS`.
+    depth_at : dict
+        Depth by name of the bearing, where it differs; or the path of an FMU with the port of a
+        bearing, relative to the scenario's file.
+    unbalance : Unbalance
+        Nominal unbalance.
+    event : BladeFracture or None
+        The blade fracture, if there is one.
+    end : float
+        End time in s.
+    step : float
+        Macro step in s; the longest one where a tolerance is given.
+    tolerance : float or None
+        Largest relative defect of a step: the wrench of a bearing less the one that the rotor was moved
+        by, against the larger of the mean static load and the bearing's force (moments: times its width).
+        A step that misses it is taken back and halved, or iterated until it does by the couplings newton
+        and iqn-ils (by themselves they go to 1e-6). None: every step counts. It belongs to the step and
+        the coupling beside it: where an option replaces one of them, it must be given anew.
+    ledger : bool
+        Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created
+        or lost. A step of the rotor then takes twice to three times as long.
+    coupling : str
+        Name of the coupling, one of `COUPLINGS`.
+    film : FilmResolution
+        Resolution of the films.
+    record : RecordSettings
+        What is kept.
+    analysed_bearing : str or None
+        Name of the bearing that summary and figures show; None takes the most loaded one.
+    folder : Path
+        Folder of the scenario's file, from which a relative train path counts. Not a key of the file.
+    """
+
+    title: str = ""
+    train: str
+    reduction: Reduction = "irs"
+    depth: Depth = "v1"
+    depth_at: dict[str, DepthOrFmu] = {}
+    unbalance: Unbalance = Unbalance()
+    event: BladeFracture | None = None
+    end: Interval
+    step: Interval = 1e-4
+    tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
+    ledger: bool = False
+    coupling: CouplingName = "linear-implicit"
+    film: FilmResolution = FilmResolution()
+    record: RecordSettings = RecordSettings()
+    analysed_bearing: str | None = None
+    folder: Path = Field(default=Path(), exclude=True)
+
+    def depth_of(self, bearing: str) -> str:
+        """Depth of the bearing of this name."""
+        return self.depth_at.get(bearing, self.depth)
+
+    def depth_name_of(self, bearing: str) -> str:
+        """Depth of the bearing of this name for people: a file without its folder and suffix."""
+        depth = self.depth_of(bearing)
+        return Path(depth).stem if is_fmu(depth) else depth

@@ -1,0 +1,1 @@
+"""Calibration of the bundled turbine train to the published figures."""

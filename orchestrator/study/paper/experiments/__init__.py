@@ -1,0 +1,1 @@
+"""Controlled experiments: why some published figures resist."""

@@ -1,0 +1,1 @@
+"""Linear analysis of the shaft: whirl, unbalance response, what reductions cost."""

@@ -1,0 +1,222 @@
+"""Whirl modes of a rotating shaft, free or on linearised bearings, and the Campbell diagram.
+
+``M q'' + (D + Ω G + B' C B) q' + (K + B' K_b B) q = 0`` with the bearings' 4x4
+stiffness and damping, solved for the eigenvalues of least modulus.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.linalg as sl
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+from numpy.typing import ArrayLike, NDArray
+
+from rotor_fmu.reduction.reduce import ReducedShaft
+from rotor_fmu.shaft.matrices import ShaftModel
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_DENSE = 250
+"""Degrees of freedom up to which all eigenvalues are computed densely."""
+
+_SHIFT = 1.0
+"""Where the sparse solver looks first, near zero but off the rigid-body modes [rad/s]."""
+
+
+class Bearings(Protocol):
+    """Linearised bearings, n_b matrices 4x4 in the order of the wrench and of q."""
+
+    @property
+    def stiffness(self) -> Array:
+        """K = -dF/dq, (n_b, 4, 4)."""
+
+    @property
+    def damping(self) -> Array:
+        """C = -dF/dv, (n_b, 4, 4)."""
+
+
+@dataclass(frozen=True, eq=False)
+class LinearBearings:
+    """Linearised bearings: stiffness and damping, (n_b, 4, 4) each."""
+
+    stiffness: Array
+    damping: Array
+
+
+@dataclass(frozen=True, eq=False)
+class WhirlModes:
+    """Modes of one speed, ascending in frequency.
+
+    Attributes
+    ----------
+    eigenvalues : ndarray, (k,)
+        lambda [1/s], imaginary parts positive.
+    shapes : ndarray, (n, k)
+        Complex displacements of the unreduced shaft, largest deflection 1.
+    """
+
+    eigenvalues: Complex
+    shapes: Complex
+
+    @property
+    def frequency(self) -> Array:
+        """Damped circular frequency [rad/s], (k,)."""
+        return self.eigenvalues.imag
+
+    @property
+    def damping_ratio(self) -> Array:
+        """-Re(lambda) / |lambda|, (k,); negative if unstable."""
+        return -self.eigenvalues.real / np.abs(self.eigenvalues)
+
+    @property
+    def direction(self) -> Array:
+        """From -1, circular backward whirl, over 0, in a plane, to 1, circular forward whirl, (k,)."""
+        x, y = self.shapes[0::4], self.shapes[1::4]
+        area = np.sum((x * y.conj()).imag, axis=0)
+        return 2.0 * area / np.sum(np.abs(x) ** 2 + np.abs(y) ** 2, axis=0)
+
+
+def whirl_modes(
+    shaft: ShaftModel | ReducedShaft,
+    speed: float,
+    count: int,
+    *,
+    bearings: Bearings | None = None,
+    above: float = 0.1,
+) -> WhirlModes:
+    """The lowest oscillating modes.
+
+    Parameters
+    ----------
+    shaft : ShaftModel or ReducedShaft
+        The shaft; shapes are those of the unreduced one in any case.
+    speed : float
+        [rad/s].
+    count : int
+        Modes wanted; fewer are returned if there are not as many.
+    bearings : Bearings, optional
+        Linearised bearings; default: free-free.
+    above : float
+        Modes below this frequency [rad/s] count as rigid-body motion and are left out.
+
+    Returns
+    -------
+    WhirlModes
+        Of least modulus, ascending in frequency.
+    """
+    n = shaft.M.shape[0]
+    values, vectors = eigenmodes(*system_matrices(shaft, speed, bearings), 2 * count + 16)
+    kept = np.flatnonzero(values.imag > above)
+    kept = kept[np.argsort(np.abs(values[kept]))][:count]
+    kept = kept[np.argsort(values[kept].imag)]
+    shapes = vectors[:n, kept]
+    if isinstance(shaft, ReducedShaft):
+        shapes = shaft.T @ shapes
+    deflection = np.abs(shapes.reshape(-1, 4, len(kept))[:, :2]).max(axis=(0, 1))
+    return WhirlModes(values[kept], shapes / deflection)
+
+
+def half_axes(x: Complex, y: Complex) -> tuple[Array, Array, Array]:
+    """Elliptic orbits of the phasors x and y: half axes, and direction from -1, backward, to 1, forward.
+
+    x + i y turns as f exp(i w t) + b exp(-i w t) with f = (x + i y) / 2 and b = conj(x - i y) / 2.
+
+    Returns
+    -------
+    major, minor, direction : ndarray
+        Of the shape of x and y.
+    """
+    forward, backward = np.abs(x + 1j * y) / 2.0, np.abs(x - 1j * y) / 2.0
+    total = np.maximum(forward**2 + backward**2, np.finfo(np.float64).tiny)
+    return forward + backward, np.abs(forward - backward), (forward**2 - backward**2) / total
+
+
+def system_matrices(
+    shaft: ShaftModel | ReducedShaft, speed: float, bearings: Bearings | None = None
+) -> tuple[sp.csc_array, sp.csc_array, sp.csc_array]:
+    """Mass, damping with gyroscopic part, and stiffness of the shaft on its bearings, sparse.
+
+    Parameters
+    ----------
+    shaft, speed, bearings
+        As for `whirl_modes`.
+    """
+    mass, damping, gyroscopic, stiffness = (sp.csc_array(A) for A in (shaft.M, shaft.D, shaft.G, shaft.K))
+    damping = damping + speed * gyroscopic
+    if bearings is not None:
+        B = journal_map(shaft)
+        stiffness = stiffness + B.T @ sp.block_diag(list(bearings.stiffness)) @ B
+        damping = damping + B.T @ sp.block_diag(list(bearings.damping)) @ B
+    return mass, sp.csc_array(damping), sp.csc_array(stiffness)
+
+
+def journal_map(shaft: ShaftModel | ReducedShaft) -> sp.csr_array:
+    """Journal displacements from the shaft's coordinates, (4 n_b, n)."""
+    if isinstance(shaft, ReducedShaft):
+        return sp.csr_array(shaft.bearing)
+    return sp.csr_array(sp.eye_array(shaft.size, format="csr")[shaft.bearing_dofs.ravel()])
+
+
+def campbell(
+    shaft: ShaftModel | ReducedShaft,
+    speeds: ArrayLike,
+    count: int,
+    *,
+    bearings: Bearings | None = None,
+    above: float = 0.1,
+) -> list[WhirlModes]:
+    """Whirl modes over speed with the same bearings at all speeds; parameters as for `whirl_modes`."""
+    return [
+        whirl_modes(shaft, speed, count, bearings=bearings, above=above)
+        for speed in np.asarray(speeds, dtype=np.float64)
+    ]
+
+
+def eigenmodes(
+    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
+) -> tuple[Complex, Complex]:
+    """Eigenvalues [1/s] of least modulus of M q'' + D q' + K q = 0, at least `count`, and their vectors.
+
+    Parameters
+    ----------
+    mass, damping, stiffness : scipy.sparse.csc_array, (n, n)
+        Real or complex; the mass positive definite.
+    count : int
+        Wanted; all 2 n are returned of a small system, and never more.
+    """
+    n = mass.shape[0]
+    if n <= _DENSE:
+        return _dense_modes(*(_to_dense(A) for A in (mass, damping, stiffness)))
+    return _sparse_modes(mass, damping, stiffness, min(count, 2 * n - 2))
+
+
+def _dense_modes(mass: Array, damping: Array, stiffness: Array) -> tuple[Complex, Complex]:
+    n = len(mass)
+    factor = sl.cho_factor(mass)
+    companion = np.block(
+        [[np.zeros((n, n)), np.eye(n)], [-sl.cho_solve(factor, stiffness), -sl.cho_solve(factor, damping)]]
+    )
+    values, vectors = sl.eig(companion)
+    return values, vectors
+
+
+def _sparse_modes(
+    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
+) -> tuple[Complex, Complex]:
+    """Shift and invert twice; the second shift keeps the defective rigid-body modes at a distance."""
+    n = mass.shape[0]
+    companion = sp.block_array([[None, sp.eye_array(n)], [-stiffness, -damping]], format="csc")
+    metric = sp.block_diag([sp.eye_array(n), mass], format="csc")
+    start = np.random.default_rng(0).normal(size=2 * n)  # ARPACK's own start is not reproducible
+    rough = sla.eigs(companion, count, metric, sigma=_SHIFT, v0=start, return_eigenvectors=False, tol=1e-3)
+    values, vectors = sla.eigs(companion, count, metric, sigma=float(np.median(np.abs(rough))), v0=start)
+    return values, vectors
+
+
+def _to_dense(matrix: sp.csc_array) -> Array:
+    return np.asarray(matrix.toarray())

@@ -1,0 +1,1 @@
+"""The reduction of the shaft, and what it costs."""

@@ -1,0 +1,1 @@
+"""The unreduced shaft: elements, matrices, statics, fields."""

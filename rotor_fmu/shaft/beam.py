@@ -1,0 +1,158 @@
+"""Timoshenko beam elements of circular cross-section, in one bending plane.
+
+The shape functions are the static solution of the element without load between
+its nodes (Przemieniecki 1968, section 5.6; Friswell, Penny, Garvey, Lees 2010,
+section 5.4.4), so that stiffness and nodal statics are exact for any length and
+shear deformation.  Mass, rotary and polar inertia are consistent with them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor_fmu.train.train import Shoulder
+
+Array = NDArray[np.float64]
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact to degree 7; the mass integrand has 6
+_XI, _DXI = (_POINTS + 1.0) / 2.0, _WEIGHTS / 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class ElementMatrices:
+    """Matrices of e elements in (deflection, slope) of both ends.
+
+    Attributes
+    ----------
+    stiffness : ndarray, (e, 4, 4)
+        Bending and shear.
+    mass : ndarray, (e, 4, 4)
+        Translational and rotary inertia.
+    polar : ndarray, (e, 4, 4)
+        Polar inertia along the element, weighted by the slopes of the cross-sections.
+    weight : ndarray, (e, 4)
+        Consistent load of a distributed force equal to the mass, i.e. gravity per unit of g.
+    """
+
+    stiffness: Array
+    mass: Array
+    polar: Array
+    weight: Array
+
+
+def shear_coefficient(diameter_ratio: Array, poisson_ratio: Array) -> Array:
+    """Cowper's shear coefficient of a hollow circular section.
+
+    Parameters
+    ----------
+    diameter_ratio : ndarray
+        Inner over outer diameter, 0 for a solid section.
+    poisson_ratio : ndarray
+        Poisson's ratio.
+
+    Returns
+    -------
+    ndarray
+        kappa; the shear stiffness is kappa G A (Cowper 1966, table 1).
+    """
+    m2 = diameter_ratio**2
+    ring = (1.0 + m2) ** 2
+    nu = poisson_ratio
+    return 6.0 * (1.0 + nu) * ring / ((7.0 + 6.0 * nu) * ring + (20.0 + 12.0 * nu) * m2)
+
+
+def element_matrices(shoulders: Sequence[Shoulder]) -> ElementMatrices:
+    """Matrices of all shoulders at once.
+
+    Parameters
+    ----------
+    shoulders : sequence of Shoulder
+        One element each.
+
+    Returns
+    -------
+    ElementMatrices
+        In the plane's order (deflection, slope) front, (deflection, slope) rear.
+    """
+    E, nu, rho, A, second_moment, L, ratio = np.array(
+        [
+            (
+                s.material.youngs_modulus,
+                s.material.poisson_ratio,
+                s.material.density,
+                s.area,
+                s.second_moment,
+                s.length,
+                s.inner_diameter / s.outer_diameter,
+            )
+            for s in shoulders
+        ]
+    ).T
+    bending = E * second_moment
+    shear = shear_coefficient(ratio, nu) * E / (2.0 * (1.0 + nu)) * A
+    phi = 12.0 * bending / (shear * L**2)
+
+    one = np.ones_like(L)
+    stiffness = (bending / (L**3 * (1.0 + phi)))[:, None, None] * np.array(
+        [
+            [12.0 * one, 6.0 * L, -12.0 * one, 6.0 * L],
+            [6.0 * L, (4.0 + phi) * L**2, -6.0 * L, (2.0 - phi) * L**2],
+            [-12.0 * one, -6.0 * L, 12.0 * one, -6.0 * L],
+            [6.0 * L, (2.0 - phi) * L**2, -6.0 * L, (4.0 + phi) * L**2],
+        ]
+    ).transpose(2, 0, 1)
+
+    deflection, rotation = shape_functions(L, phi, _XI)
+    translational = (rho * A * L)[:, None, None] * _gram(deflection)
+    rotary = (rho * second_moment * L)[:, None, None] * _gram(rotation)
+    weight = (rho * A * L)[:, None] * np.einsum("p,epi->ei", _DXI, deflection)
+    # Polar inertia of a circular section is twice the diametral one.
+    return ElementMatrices(stiffness, translational + rotary, 2.0 * rotary, weight)
+
+
+def shape_functions(length: Array, phi: Array, xi: Array) -> tuple[Array, Array]:
+    """Deflection and rotation of the cross-section along unloaded Timoshenko elements.
+
+    Parameters
+    ----------
+    length, phi : ndarray, (e,)
+        Length L [m] and shear parameter Phi = 12 E I / (kappa G A L^2).
+    xi : ndarray, (p,)
+        Positions z / L in the elements.
+
+    Returns
+    -------
+    deflection, rotation : ndarray, (e, p, 4)
+        Factors of (deflection, slope) front and (deflection, slope) rear.
+    """
+    L, s, x = length[:, None], phi[:, None], xi[None, :]
+    ones = np.ones_like(L * x)
+    deflection = np.stack(
+        [
+            1.0 - 3.0 * x**2 + 2.0 * x**3 + s * (1.0 - x),
+            L * (x - 2.0 * x**2 + x**3 + s / 2.0 * (x - x**2)),
+            3.0 * x**2 - 2.0 * x**3 + s * x,
+            L * (x**3 - x**2 - s / 2.0 * (x - x**2)),
+        ],
+        axis=-1,
+    )
+    rotation = np.stack(
+        [
+            6.0 / L * (x**2 - x),
+            1.0 - 4.0 * x + 3.0 * x**2 + s * (1.0 - x),
+            6.0 / L * (x - x**2),
+            ones * (3.0 * x**2 - 2.0 * x) + s * x,
+        ],
+        axis=-1,
+    )
+    return deflection / (1.0 + s[..., None]), rotation / (1.0 + s[..., None])
+
+
+def _gram(shapes: Array) -> Array:
+    """Integral over xi of the products of shape functions, symmetric to the last bit, (e, 4, 4)."""
+    weighted = shapes * np.sqrt(_DXI)[:, None]
+    return np.einsum("epi,epj->eij", weighted, weighted)

@@ -1,0 +1,148 @@
+"""Assembly of the shaft: M q'' + (D + Ω G) q' + K q = f from a train.
+
+Degrees of freedom: node k, component i of (x, y, tilt_x, tilt_y) at index 4 k + i.
+The slopes of the centre line's cross-sections are tilt_y in the x-z plane and
+-tilt_x in the y-z plane.  A shaft of circular sections has the same mass and
+stiffness in both planes and no coupling between them but the gyroscopic one, so
+everything follows from three *plane matrices* in (deflection, slope) a node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from rotor_fmu.shaft.beam import element_matrices
+from rotor_fmu.train.train import Train
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ShaftModel:
+    """The unreduced shaft, N nodes and n = 4 N degrees of freedom.
+
+    Attributes
+    ----------
+    M, D, G, K : scipy.sparse.csr_array, (n, n)
+        Mass, Rayleigh damping, gyroscopic matrix (skew, to be multiplied by the speed) and stiffness.
+    plane_mass, plane_stiffness, plane_polar : ndarray, (2 N, 2 N)
+        The same in one plane, order (deflection, slope) a node; polar inertia of the cross-sections.
+    z : ndarray, (N,)
+        Axial positions of the nodes [m].
+    bearing_dofs : ndarray of int, (n_b, 4)
+        Degrees of freedom x, y, tilt_x, tilt_y of the bearings' nodes.
+    wheel_dofs : ndarray of int, (n_w, 2)
+        Degrees of freedom x, y of the wheels' nodes.
+    gravity : ndarray, (n,)
+        Consistent gravity load per unit of g; it acts in -y [kg, kg m].
+    rayleigh : tuple of float
+        alpha [1/s] and beta [s].
+    """
+
+    M: sp.csr_array
+    D: sp.csr_array
+    G: sp.csr_array
+    K: sp.csr_array
+    plane_mass: Array
+    plane_stiffness: Array
+    plane_polar: Array
+    z: Array
+    bearing_dofs: NDArray[np.intp]
+    wheel_dofs: NDArray[np.intp]
+    gravity: Array
+    rayleigh: tuple[float, float]
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes N."""
+        return len(self.z)
+
+    @property
+    def size(self) -> int:
+        """Number of degrees of freedom n = 4 N."""
+        return 4 * len(self.z)
+
+    @property
+    def plane_gravity(self) -> Array:
+        """Gravity load per unit of g in the y-z plane, order (deflection, slope) a node, (2 N,)."""
+        return plane_y(self.nodes).T @ self.gravity
+
+
+def plane_x(nodes: int) -> sp.csr_array:
+    """Full vector from the x-z plane's (x, tilt_y) a node, (4 N, 2 N)."""
+    return _plane(nodes, (0, 3), (1.0, 1.0))
+
+
+def plane_y(nodes: int) -> sp.csr_array:
+    """Full vector from the y-z plane's (y, -tilt_x) a node, (4 N, 2 N)."""
+    return _plane(nodes, (1, 2), (1.0, -1.0))
+
+
+def assemble(train: Train) -> ShaftModel:
+    """Assemble the matrices of a train.
+
+    Parameters
+    ----------
+    train : Train
+        The train; a shoulder becomes an element, a wheel a rigid disc on its node.
+
+    Returns
+    -------
+    ShaftModel
+        The unreduced shaft.
+    """
+    nodes = train.nodes
+    mass, stiffness, polar = (np.zeros((2 * nodes, 2 * nodes)) for _ in range(3))
+    load = np.zeros(2 * nodes)
+    elements = element_matrices(train.shoulders)
+    for k in range(nodes - 1):
+        here = slice(2 * k, 2 * k + 4)
+        mass[here, here] += elements.mass[k]
+        stiffness[here, here] += elements.stiffness[k]
+        polar[here, here] += elements.polar[k]
+        load[here] -= elements.weight[k]
+    for wheel in train.wheels:
+        deflection, slope = 2 * wheel.node, 2 * wheel.node + 1
+        mass[deflection, deflection] += wheel.mass
+        mass[slope, slope] += wheel.transverse_inertia
+        polar[slope, slope] += wheel.polar_inertia
+        load[deflection] -= wheel.mass
+
+    x, y = plane_x(nodes), plane_y(nodes)
+    M = _both_planes(mass, x, y)
+    K = _both_planes(stiffness, x, y)
+    H = sp.csr_array(polar)
+    # Angular momentum of the spin, Ip Ω (tilt_y, -tilt_x): its rate opposes the tilting in the other plane.
+    G = sp.csr_array(x @ H @ y.T - y @ H @ x.T)
+    D = sp.csr_array(train.rayleigh_alpha * M + train.rayleigh_beta * K)
+    at_bearings = np.array([b.node for b in train.bearings], dtype=np.intp)
+    at_wheels = np.array([w.node for w in train.wheels], dtype=np.intp)
+    return ShaftModel(
+        M=M,
+        D=D,
+        G=G,
+        K=K,
+        plane_mass=mass,
+        plane_stiffness=stiffness,
+        plane_polar=polar,
+        z=np.array(train.z),
+        bearing_dofs=4 * at_bearings[:, None] + np.arange(4),
+        wheel_dofs=4 * at_wheels[:, None] + np.arange(2),
+        gravity=y @ load,
+        rayleigh=(train.rayleigh_alpha, train.rayleigh_beta),
+    )
+
+
+def _plane(nodes: int, components: tuple[int, int], signs: tuple[float, float]) -> sp.csr_array:
+    rows = (4 * np.arange(nodes)[:, None] + np.array(components)).ravel()
+    values = np.tile(np.array(signs), nodes)
+    return sp.csr_array((values, (rows, np.arange(2 * nodes))), shape=(4 * nodes, 2 * nodes))
+
+
+def _both_planes(matrix: Array, x: sp.csr_array, y: sp.csr_array) -> sp.csr_array:
+    block = sp.csr_array(matrix)
+    return sp.csr_array(x @ block @ x.T + y @ block @ y.T)

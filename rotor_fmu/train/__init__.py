@@ -1,0 +1,1 @@
+"""The train: its data, its files, and what is wrong with them."""

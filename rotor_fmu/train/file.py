@@ -1,0 +1,217 @@
+"""Reads a train from a folder: ``train.toml`` and the table of shoulders, ``shaft.csv``.
+
+Wheels, bearings and couplings are placed by their axial position ``z``, as on a
+drawing; it must be the boundary of two shoulders within `POSITION_TOLERANCE`.
+A file with mistakes is refused with all of them, one line each, with line or row.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from rotor_fmu.train.checks import (
+    POSITION_TOLERANCE,
+    entry_problems,
+    load_problems,
+    names_twice,
+    nearest_node,
+    order_problems,
+    rotor_problems,
+)
+from rotor_fmu.train.schema import BearingEntry, Placed, ShoulderRow, TrainToml, WheelEntry, explain
+from rotor_fmu.train.toml_source import LARGEST, Problem, TomlError, TomlSource, read_toml
+from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
+from rotor_fmu.train.wording import choice
+
+__all__ = ["DATA", "POSITION_TOLERANCE", "TrainFileError", "bundled_trains", "load_train"]
+
+DATA = Path(__file__).parents[1] / "data"
+_COLUMNS = tuple(ShoulderRow.model_fields)
+_MODELS: dict[str, type[Placed]] = {"wheel": WheelEntry, "bearing": BearingEntry, "coupling": Placed}
+_ANY = Material("", 1.0, 0.0, 1.0)
+"""In place of a material that is not known, where only the geometry counts."""
+
+
+class TrainFileError(ValueError):
+    """A train that cannot be read; the message has one line a problem."""
+
+    def __init__(self, problems: list[str]) -> None:
+        super().__init__("\n".join(problems))
+        self.problems = tuple(problems)
+
+
+def bundled_trains() -> tuple[str, ...]:
+    """Names of the trains that come with the package."""
+    return tuple(sorted(path.parent.name for path in DATA.glob("*/train.toml")))
+
+
+def load_train(name_or_path: str | Path) -> Train:
+    """Read a train.
+
+    Parameters
+    ----------
+    name_or_path : str or Path
+        A bundled train's name, or a folder with ``train.toml``, or that file.
+
+    Returns
+    -------
+    Train
+        The train.
+
+    Raises
+    ------
+    TrainFileError
+        With every problem found: file, line or row, key, value, and what is allowed.
+    """
+    path = _path_of(name_or_path)
+    problems: list[str] = []
+    try:
+        source = read_toml(path)
+    except TomlError as error:
+        problems.append(f"{path}: {error}")
+        source = TomlSource("")
+    shaft_file = source.raw.get("shaft")
+    table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
+    in_table: list[str] = []
+    rows = _read_shaft(table, in_table)
+    train, found = _checked(source, rows if not in_table else []) if not problems else (None, [])
+    in_table += _unknown_materials(rows, source.raw.get("materials"))
+    problems += (f"{path}: {text}" for text in source.located(found))
+    problems += (f"{table}: {text}" for text in in_table)
+    if train is None or problems:
+        raise TrainFileError(problems)
+    return train
+
+
+def _path_of(name_or_path: str | Path) -> Path:
+    if str(name_or_path) in bundled_trains():
+        return DATA / str(name_or_path) / "train.toml"
+    path = Path(name_or_path)
+    path = path / "train.toml" if path.is_dir() else path
+    if not path.is_file():
+        raise TrainFileError(
+            [
+                f"{name_or_path}: no such train; {choice(path.name, bundled_trains())}, which are "
+                "bundled, or the path of a folder with train.toml and shaft.csv"
+            ]
+        )
+    return path
+
+
+def _read_shaft(path: Path, problems: list[str]) -> list[tuple[int, ShoulderRow]]:
+    """Rows with the number of their line in the file."""
+    try:
+        if path.is_file() and (size := path.stat().st_size) > LARGEST:
+            problems.append(f"not readable: {size} bytes, allowed are {LARGEST}")
+            return []
+        lines = path.read_text(encoding="utf-8").split("\n")
+    except (ValueError, OSError) as error:
+        problems.append(f"not readable: {error}")
+        return []
+    content = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
+    header = tuple(cell.strip() for cell in content[0][1].split(",")) if content else ()
+    if header != _COLUMNS:
+        problems.append(f"header {','.join(header)!r}; allowed is {','.join(_COLUMNS)!r}")
+        return []
+    rows = []
+    for number, line in content[1:]:
+        cells = _cells(line)
+        if len(cells) != len(_COLUMNS):
+            problems.append(f"row {number}: {len(cells)} values; allowed are {len(_COLUMNS)}")
+            continue
+        raw = dict(zip(_COLUMNS, cells, strict=True))
+        try:
+            rows.append((number, ShoulderRow.model_validate_strings(raw)))
+        except ValidationError as error:
+            problems.extend(f"row {number}: {text}" for _, text in explain(error, raw, ShoulderRow))
+    if len(content) == 1:
+        problems.append("no shoulders; at least one row is needed")
+    return rows
+
+
+def _cells(line: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([line]), [])]
+    except csv.Error:
+        return []
+
+
+def _unknown_materials(rows: list[tuple[int, ShoulderRow]], materials: Any) -> Iterator[str]:
+    if not isinstance(materials, Mapping):
+        return  # said elsewhere
+    for number, row in rows:
+        if row.material not in materials:
+            yield f"row {number}: material = {row.material!r}; {choice(row.material, materials)}"
+
+
+def _checked(source: TomlSource, rows: list[tuple[int, ShoulderRow]]) -> tuple[Train | None, list[Problem]]:
+    """Return the train, or None with what is wrong in train.toml, by itself and on this shaft."""
+    data, found = None, list[Problem]()
+    try:
+        data = TrainToml.model_validate(source.raw)
+    except ValidationError as error:
+        found += explain(error, source.raw, TrainToml)
+    found += names_twice(source.raw)
+    if not rows:
+        return None, found
+    known = data.materials if data else {}
+    materials = {name: Material(name, **entry.model_dump()) for name, entry in known.items()}
+    shoulders = tuple(
+        Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials.get(row.material, _ANY))
+        for _, row in rows
+    )
+    shaft = _train(data, shoulders)
+    for kind, model in _MODELS.items():
+        for index, entry in _sound(source.raw.get(kind), model):
+            found += entry_problems(shaft, kind, index, entry)
+    if data is None or found:
+        return None, found
+    nodes = {kind: [nearest_node(shaft, entry.z) for entry in getattr(data, kind)] for kind in _MODELS}
+    found += order_problems(shaft, "bearing", data.bearing, nodes["bearing"])
+    found += order_problems(shaft, "coupling", data.coupling, nodes["coupling"])
+    if not found:
+        found += rotor_problems(shaft, data.coupling, nodes)
+    if found or any(row.material not in materials for _, row in rows):
+        return None, found
+    train = _train(data, shoulders, nodes)
+    return train, list(load_problems(train))
+
+
+def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:
+    """Yield those entries of a list that are right by themselves, whatever the others are."""
+    for index, entry in enumerate(entries if isinstance(entries, list) else ()):
+        try:
+            yield index, model.model_validate(entry)
+        except ValidationError:
+            continue  # said with the whole file
+
+
+def _train(
+    data: TrainToml | None,
+    shoulders: tuple[Shoulder, ...],
+    nodes: Mapping[str, list[int]] | None = None,
+) -> Train:
+    """Return the train; without nodes only its shaft, without data only the geometry of that."""
+    parts: dict[str, list[dict[str, Any]]] = {kind: [] for kind in _MODELS}
+    for kind, places in (nodes or {}).items():
+        entries = getattr(data, kind)
+        parts[kind] = [
+            {**entry.model_dump(exclude={"z"}), "node": node}
+            for entry, node in zip(entries, places, strict=True)
+        ]
+    return Train(
+        name=data.name if data else "",
+        speed=data.speed if data else 1.0,
+        rayleigh_alpha=data.damping.alpha if data else 0.0,
+        rayleigh_beta=data.damping.beta if data else 0.0,
+        balance_grade=data.balance_grade if data else 0.0,
+        shoulders=shoulders,
+        wheels=tuple(Wheel(**wheel) for wheel in parts["wheel"]),
+        bearings=tuple(BearingSeat(**bearing) for bearing in parts["bearing"]),
+        couplings=tuple(Coupling(**coupling) for coupling in parts["coupling"]),
+    )

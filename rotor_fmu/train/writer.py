@@ -1,0 +1,93 @@
+"""Writes a train as the folder that `rotor_fmu.train.file` reads: train.toml and shaft.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import fields
+from pathlib import Path
+from typing import TypeAlias
+
+from rotor_fmu.train.train import BearingSeat, Coupling, Train, Wheel
+
+Placed: TypeAlias = Coupling | BearingSeat | Wheel
+
+SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
+
+
+def write_train(train: Train, folder: Path) -> None:
+    """Write ``train.toml`` and ``shaft.csv`` into a folder, which is made if missing.
+
+    Parameters
+    ----------
+    train : Train
+        The train.
+    folder : Path
+        Where to write.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "shaft.csv").write_text(shaft_csv(train), encoding="utf-8")
+    (folder / "train.toml").write_text(train_toml(train), encoding="utf-8")
+
+
+def shaft_csv(train: Train) -> str:
+    """The shoulders from front to rear, one a row; what sits behind a shoulder is noted as a comment."""
+    notes: dict[int, list[str]] = {}
+    for part in _parts(train):
+        notes.setdefault(part.node, []).append(f"{_kind(part)} {part.name}")
+    lines = [
+        f"# Shoulders of train {train.name}, front to rear; metres",
+        SHAFT_HEADER,
+    ]
+    for k, shoulder in enumerate(train.shoulders):
+        if k in notes:
+            lines.append(f"# z = {_z(train, k)!r}: {', '.join(notes[k])}")
+        row = (shoulder.length, shoulder.outer_diameter, shoulder.inner_diameter)
+        lines.append(",".join([*(repr(value) for value in row), shoulder.material.name]))
+    return "\n".join(lines) + "\n"
+
+
+def train_toml(train: Train) -> str:
+    """Everything that is not a shoulder; wheels, bearings and couplings are placed by z."""
+    lines = [
+        f'name = "{train.name}"',
+        f"speed = {train.speed!r}",
+        f"balance_grade = {train.balance_grade!r}",
+        "",
+        "[damping]",
+        f"alpha = {train.rayleigh_alpha!r}",
+        f"beta = {train.rayleigh_beta!r}",
+    ]
+    for material in {s.material.name: s.material for s in train.shoulders}.values():
+        lines += [
+            "",
+            f"[materials.{material.name}]",
+            f"youngs_modulus = {material.youngs_modulus!r}",
+            f"poisson_ratio = {material.poisson_ratio!r}",
+            f"density = {material.density!r}",
+        ]
+    for part in _parts(train):
+        lines += ["", f"[[{_kind(part)}]]", *_entries(train, part)]
+    return "\n".join(lines) + "\n"
+
+
+def _entries(train: Train, part: Placed) -> Iterable[str]:
+    for field in fields(part):
+        value = getattr(part, field.name)
+        if field.name == "node":
+            yield f"z = {_z(train, part.node)!r}"
+        elif isinstance(value, str):
+            yield f'{field.name} = "{value}"'
+        elif value is not None:
+            yield f"{field.name} = {float(value)!r}"
+
+
+def _parts(train: Train) -> tuple[Placed, ...]:
+    return (*train.couplings, *train.bearings, *train.wheels)
+
+
+def _kind(part: Placed) -> str:
+    return {Coupling: "coupling", BearingSeat: "bearing", Wheel: "wheel"}[type(part)]
+
+
+def _z(train: Train, node: int) -> float:
+    return round(train.z[node], 9)

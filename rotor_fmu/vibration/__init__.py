@@ -1,0 +1,1 @@
+"""The vibrating shaft in time: coordinates, exact step under affine laws, energies."""

@@ -1,0 +1,165 @@
+"""One macro step of the shaft on bearings with an affine law.
+
+Wrenches w = F0 - K q - C v act on the journals.  At the start of the step they
+follow from the state, at the end from the state to be found; in between they run
+linearly.  With y1 = y_free + S w1 the journals' q and v at the end and
+L = [K C] of all bearings, the law leaves one linear solve in 4 n_b wrench components:
+
+    (1 + L S) w1 = F0 - L y_free
+
+Wrenches are counted from those of the static equilibrium about which the shaft vibrates.
+
+A linear hold is the most accurate one, and bears a stiffness k against a mass m that rides on it up
+to k H^2 / m = 12 (Newmark's method with beta = 1/6, the linear acceleration).  The mean of both ends,
+held through the step (beta = 1/4), bears any: the work of a spring, -k (x1^2 - x0^2) / 2, then is exact.
+A mixture with a share c of the mean bears k H^2 / m < 12 / (1 - c) (Hughes 1987, The Finite Element
+Method, section 9.1).  Films stay far below; a journal pressed into its shell does not.  So each bearing
+gets the share that keeps it at half of what it would bear: c = 1 - 1/s where the stiffness number s,
+k H^2 / (6 m) of a mass on a spring (`coordinates.Compliance.stiffness_numbers`), is above 1.
+The mixture is linear in time again, each end moved towards the other by c / 2 of their distance.
+On a shaft that vibrates elastically within the step, or with dampers as stiff, there is no such proof:
+steps several times as long as 2 sqrt(3 m / k) may still be upset, and the defect tells.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
+
+Array = NDArray[np.float64]
+
+
+class StepFailure(ArithmeticError):
+    """The step has no finite result; the state before it stands."""
+
+
+class AffineStep:
+    """Takes macro steps in any coordinates; owns the memory that the law needs.
+
+    Parameters
+    ----------
+    bearings : int
+        Number n_b of bearings.
+    """
+
+    def __init__(self, bearings: int) -> None:
+        loads = 4 * bearings
+        # Views share memory: what is written to one is read as the other.
+        self._law = np.zeros((bearings, 4, 8))
+        self._matrix = np.zeros((bearings, 4, loads))
+        self._square = self._matrix.reshape(loads, loads)
+        self._diagonal = self._square.reshape(-1)[:: loads + 1]
+        self._reaction = np.zeros((bearings, 4, 1))
+        self._nearer: Array | None = None  # c / 2 of each wrench component in the last step, None for 0
+
+    def set_law(self, K: Array, C: Array) -> None:
+        """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
+        self._law[:, :, :4] = K
+        self._law[:, :, 4:] = C
+
+    def held(
+        self, F0: Array, start: Array, end: Array, static: Equilibrium[np.float64]
+    ) -> tuple[Array, Array]:
+        """Wrenches between which the last step ran, from journals at both ends, (4 n_b,) each.
+
+        Counted from those of the static equilibrium.
+        """
+        offset = F0.reshape(-1) - static.wrench
+        w0, w1 = (offset - self._react(journals) for journals in (start, end))
+        if self._nearer is None:
+            return w0, w1
+        nearer = self._nearer * (w1 - w0)
+        return w0 + nearer, w1 - nearer
+
+    def advance(
+        self,
+        coordinates: Coordinates,
+        maps: Maps,
+        motion: Array,
+        journals: Array,
+        F0: Array,
+        rotation: Array,
+        kick: Array | None,
+        static: Equilibrium[np.float64],
+    ) -> Array:
+        """Take a step under the law last set.
+
+        Parameters
+        ----------
+        coordinates, maps : Coordinates, Maps
+            Of this speed and step; two harmonic inputs, the nominal unbalance and the lost blade's.
+        motion : ndarray, (2 m,)
+            At the start, in these coordinates.
+        journals : ndarray, (n_b, 8)
+            `journal_motion` at the start.
+        F0 : ndarray, (n_b, 4)
+            Constant part of the law.
+        rotation : ndarray, (4,)
+            cos and sin of the angle of rotation at the start, for each harmonic input; 0 to leave one out.
+        kick : ndarray, (2 m,), optional
+            What a force acting during a part of the step only adds to the motion at the end.
+        static : Equilibrium
+            The static equilibrium.
+
+        Returns
+        -------
+        ndarray, (2 m,)
+            The motion at the end.
+
+        Raises
+        ------
+        StepFailure
+            If the law has no solution at the end of the step, or numbers are not finite.
+        """
+        offset = F0.reshape(-1) - static.wrench
+        start = offset - self._react(journals)
+        nearer = self._nearer = self._share(maps.compliance)
+        if nearer is None:
+            end = maps.coast(motion, start, rotation)
+            compliance = maps.compliance.end
+        else:
+            end = maps.coast(motion, start - nearer * start, rotation)
+            maps.add_end(nearer * start, end)
+            compliance = maps.compliance.end + nearer * (maps.compliance.start - maps.compliance.end)
+        if kick is not None:
+            end += kick
+        wrench = offset - self._react(journal_motion(coordinates, end, static))
+        np.matmul(self._law, compliance, out=self._matrix)
+        self._diagonal += 1.0
+        # The matrix is stored by rows, LAPACK reads columns: factor the transpose, solve transposed.
+        factor, pivots, info = lapack.dgetrf(self._square.T, overwrite_a=1)
+        if info == 0:
+            wrench, info = lapack.dgetrs(factor, pivots, wrench, trans=1)
+        if nearer is None:
+            maps.add_end(wrench, end)
+        else:
+            maps.add_start(nearer * wrench, end)
+            maps.add_end(wrench - nearer * wrench, end)
+        if info != 0 or not np.isfinite(np.dot(end, end)):
+            raise StepFailure(
+                "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
+            )
+        return end
+
+    def _share(self, compliance: Compliance) -> Array | None:
+        """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
+        numbers = compliance.stiffness_numbers(self._law[:, :, :4])
+        if numbers is None or not numbers.max(initial=0.0) > 1.0:
+            return None
+        return np.repeat(0.5 - 0.5 / np.maximum(numbers, 1.0), 4)
+
+    def _react(self, journals: Array) -> Array:
+        """L y: what stiffness and damping take off F0."""
+        np.matmul(self._law, journals.reshape(-1, 8, 1), out=self._reaction)
+        return self._reaction.reshape(-1)
+
+
+def journal_motion(coordinates: Coordinates, motion: Array, static: Equilibrium[np.float64]) -> Array:
+    """Journal displacements and velocities (q, v) of a motion about an equilibrium, (n_b, 8)."""
+    y = coordinates.journals(motion).reshape(-1, 8)
+    y[:, :4] += static.journals.reshape(-1, 4)
+    return y

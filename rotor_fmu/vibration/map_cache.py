@@ -1,0 +1,123 @@
+"""Maps of the shaft kept for the speeds and step sizes in use."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor_fmu.reduction.condensation import CondensedShaft, condense_harmonic
+from rotor_fmu.shaft.matrices import ShaftModel
+from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.state_space import ModalCoordinates
+from rotor_fmu.vibration.whirl_coordinates import whirl_coordinates
+from rotor_fmu.vibration.work import WorkMaps, work_maps
+
+Array = NDArray[np.float64]
+Item = TypeVar("Item")
+
+CAPACITY = 8
+"""Maps kept of each kind: a step size, its halves while a step is repeated, and a second speed."""
+
+_ROUNDING = 4.0 * np.finfo(float).eps
+"""Of a difference of instants, relative to the later one."""
+
+
+class MapCache:
+    """Everything that depends on speed and step size only, computed at first use.
+
+    A master that takes its step as the difference of two instants varies it by their
+    rounding and would ask for ever new maps: within that rounding a decimal of nine digits
+    is taken, or else a step size already in use.
+
+    Parameters
+    ----------
+    model, shaft : ShaftModel, ModalShaft
+        The shaft, unreduced and reduced.
+    unbalance : Unbalance
+        Its excitation.
+    """
+
+    def __init__(self, model: ShaftModel, shaft: ModalShaft, unbalance: Unbalance) -> None:
+        self._model, self._shaft, self._unbalance = model, shaft, unbalance
+        self._modal = ModalCoordinates(shaft)
+        self._coordinates: OrderedDict[float, Coordinates] = OrderedDict()
+        self._steps: OrderedDict[tuple[float, float], Maps] = OrderedDict()
+        self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
+        self._kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
+        self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
+
+    def coordinates(self, speed: float | None) -> Coordinates:
+        """The coordinates of a motion: modal for None, else those in which steps at a speed are taken."""
+        if speed is None:
+            return self._modal
+        return _recall(self._coordinates, speed, lambda: whirl_coordinates(self._shaft, speed) or self._modal)
+
+    def step(self, speed: float, step: float, end: float = 0.0) -> Maps:
+        """Maps over a step, for the nominal unbalance and the lost blade's.
+
+        Parameters
+        ----------
+        speed, step : float
+            [rad/s], [s].
+        end : float
+            Instant at the end of the step, for its rounding [s].
+        """
+        length = self._settled(speed, step, end)
+        return _recall(self._steps, (speed, length), lambda: self._new_step(speed, length))
+
+    def work(self, speed: float, step: float, end: float = 0.0) -> WorkMaps:
+        """Works over a step of which `step` has been asked, or over a part of one."""
+        length = self._settled(speed, step, end)
+        return _recall(self._works, (speed, length), lambda: self._new_work(speed, length))
+
+    def kick(self, speed: float, duration: float, angle: float) -> Array:
+        """Motion after `duration` from rest under the lost blade's unbalance, from `angle` on, (2 m,)."""
+        maps = _recall(self._kicks, (speed, duration), lambda: self._new_step(speed, duration))
+        states, loads = 2 * self._shaft.size, len(self._shaft.bearing)
+        turn = np.array([0.0, 0.0, math.cos(angle), math.sin(angle)])
+        return maps.coast(np.zeros(states), np.zeros(loads), turn)
+
+    def harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
+        """Steady vibration under the nominal unbalance, condensed onto the journals."""
+        return _recall(self._harmonics, speed, lambda: self._new_harmonic(speed))
+
+    def _settled(self, speed: float, step: float, end: float) -> float:
+        if (speed, step) in self._steps:
+            return step
+        noise = _ROUNDING * (abs(end) + step)
+        known = (other for at, other in self._steps if at == speed)
+        candidates = (float(f"{step:.8e}"), *known)
+        return next((other for other in candidates if abs(other - step) <= noise), step)
+
+    def _forces(self, speed: float) -> Array:
+        nominal = self._unbalance.nominal_force(self._shaft, speed)
+        blade = self._unbalance.blade_force(self._shaft, speed)
+        return np.hstack([nominal, blade])
+
+    def _new_step(self, speed: float, step: float) -> Maps:
+        return self.coordinates(speed).maps(speed, step, self._forces(speed))
+
+    def _new_work(self, speed: float, step: float) -> WorkMaps:
+        return work_maps(self._shaft, speed, step, self._forces(speed))
+
+    def _new_harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
+        nominal = self._unbalance.nominal_force(self._shaft, speed)
+        return condense_harmonic(self._model, self._shaft, speed, nominal)
+
+
+def _recall(items: OrderedDict, key: object, make: Callable[[], Item]) -> Item:
+    """The item of a key, made if new; the least recently used one gives way."""
+    if key in items:
+        items.move_to_end(key)
+    else:
+        items[key] = make()
+        if len(items) > CAPACITY:
+            items.popitem(last=False)
+    return items[key]

@@ -1,0 +1,270 @@
+"""The rotor of the FMU: a shaft that takes macro steps under affine bearing laws."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor_fmu.reduction.condensation import Equilibrium, condense_static
+from rotor_fmu.reduction.reduce import Method
+from rotor_fmu.shaft.fields import Extremes, FieldMap, NodeFields
+from rotor_fmu.shaft.prepared import PreparedShaft, prepare_shaft
+from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.train.train import Train
+from rotor_fmu.vibration import initial_state
+from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
+from rotor_fmu.vibration.coordinates import Coordinates
+from rotor_fmu.vibration.energy import Energy, EnergyMeter
+from rotor_fmu.vibration.map_cache import MapCache
+from rotor_fmu.vibration.state import RotorState
+from rotor_fmu.vibration.work import Work, WorkLedger
+
+Array = NDArray[np.float64]
+
+
+class Rotor:
+    """A shaft in its bearings, from a start state on.
+
+    Parameters
+    ----------
+    train : Train
+        The train.
+    reduction : str
+        How the shaft is reduced: irs, irs-plain, guyan, craig-bampton or none; see `reduce`.
+    gravity : float
+        Against y [m/s2].
+    speed : float, optional
+        Speed at the start [rad/s]; default that of the train.
+    unbalance, unbalance_phase : array_like, (n_w,), optional
+        Nominal unbalance of the wheels [kg m] and its angle at t = 0 [rad]; default that of the train.
+    blade_unbalance, blade_phase : array_like, (n_w,), optional
+        Unbalance added by the blade fracture and its angle at t = 0; default none.
+    fracture_time : float
+        Instant of the fracture [s].
+    track_work : bool
+        Keep account of the works, at some seven times the cost of a step and some seconds for the
+        first step of each size (minutes for the unreduced shaft).
+
+    Notes
+    -----
+    The speed is constant within a step.  When it changes from step to step the angle
+    of rotation goes on without a jump and the force of the unbalance is U speed^2; the
+    tangential force of an angular acceleration is left out.  The modes are found anew at each new
+    speed, which takes a thousand times as long as a step.
+    """
+
+    _state: RotorState
+    _journals: Array
+    _modal: Array | None
+
+    def __init__(
+        self,
+        train: Train,
+        *,
+        reduction: Method = "irs",
+        gravity: float = 9.80665,
+        speed: float | None = None,
+        unbalance: ArrayLike | None = None,
+        unbalance_phase: ArrayLike | None = None,
+        blade_unbalance: ArrayLike | None = None,
+        blade_phase: ArrayLike | None = None,
+        fracture_time: float = math.inf,
+        track_work: bool = False,
+    ) -> None:
+        excitation = Unbalance.of_train(
+            train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
+        )
+        start_speed = train.speed if speed is None else speed
+        self._set_up(prepare_shaft(train, reduction), excitation, gravity, start_speed, track_work)
+
+    @classmethod
+    def of_shaft(
+        cls,
+        shaft: PreparedShaft,
+        unbalance: Unbalance,
+        *,
+        gravity: float,
+        speed: float,
+        track_work: bool = False,
+    ) -> Rotor:
+        """A rotor of a given shaft instead of a train; see the class."""
+        rotor = cls.__new__(cls)
+        rotor._set_up(shaft, unbalance, gravity, speed, track_work)
+        return rotor
+
+    def _set_up(
+        self, shaft: PreparedShaft, unbalance: Unbalance, gravity: float, speed: float, track_work: bool
+    ) -> None:
+        model = self.model = shaft.model
+        self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
+        self._maps = MapCache(model, self.shaft, unbalance)
+        self._stepper = AffineStep(self.shaft.bearings)
+        self._fields = FieldMap(self.shaft, shaft.bending, model.z, gravity)
+        self._energy = EnergyMeter(model, self.shaft, gravity)
+        self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
+        self._condensed = condense_static(model, gravity)
+        # At rest without wrenches until a start is given.
+        nothing = np.zeros(len(self.shaft.bearing))
+        rest = Equilibrium(np.zeros(model.size), nothing, nothing)
+        self.set_state(RotorState(np.zeros(2 * self.shaft.size), 0.0, rest))
+
+    def start_from_positions(
+        self, static: ArrayLike, cos: ArrayLike, sin: ArrayLike, *, time: float = 0.0
+    ) -> None:
+        """Start with the journals moving as q(t) = static + cos cos(speed t) + sin sin(speed t).
+
+        Parameters
+        ----------
+        static, cos, sin : array_like, (n_b, 4)
+            [m], [rad]; static q at rest and the 1X orbit about it.
+        time : float
+            Instant of the start [s].
+        """
+        positions = (_array(static), _array(cos), _array(sin))
+        harmonic = self._maps.harmonic(self._speed)
+        angle = self._angle_at(time)
+        self.set_state(initial_state.at_positions(self._condensed, harmonic, self._speed, positions, angle))
+
+    def start_from_law(
+        self, F0: ArrayLike, K: ArrayLike, C: ArrayLike, *, orbit: bool, time: float = 0.0
+    ) -> None:
+        """Start in equilibrium with the affine laws w = F0 - K q - C v.
+
+        Parameters
+        ----------
+        F0, K, C : array_like, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
+            The laws of the bearings.
+        orbit : bool
+            With the linear response to the nominal unbalance.
+        time : float
+            Instant of the start [s].
+
+        Raises
+        ------
+        ValueError
+            If K leaves a rigid-body motion of the shaft free.
+        """
+        law = (_array(F0), _array(K), _array(C))
+        harmonic = self._maps.harmonic(self._speed)
+        angle = self._angle_at(time)
+        self.set_state(initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit))
+
+    def kinematics(self) -> Array:
+        """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""
+        return self._journals.copy()
+
+    def static_wrench(self) -> Array:
+        """Wrenches that hold the shaft in the static equilibrium of the start, (n_b, 4) in N, N m."""
+        return self._state.static.wrench.reshape(-1, 4).copy()
+
+    def step(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float) -> None:
+        """Take a macro step.
+
+        Parameters
+        ----------
+        t : float
+            Instant at the start [s]; decides whether the blade breaks within the step.
+        H : float
+            Length of the step [s], positive.
+        F0, K, C : ndarray, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
+            The law of each bearing, valid through the step.
+        speed : float
+            [rad/s].
+
+        Raises
+        ------
+        StepFailure
+            If the step has no finite result, as under a law that is not finite; the state before it stands.
+        ValueError
+            If H is not positive and finite, or the speed is not finite.
+        """
+        if not (math.isfinite(H) and H > 0.0 and math.isfinite(speed)):
+            raise ValueError(f"rotor: step H = {H} s at {speed} rad/s; allowed are H > 0 and finite numbers")
+        state, journals = self._state, self._journals
+        angle, fracture = state.angle, self.unbalance.fracture_time
+        cos, sin = math.cos(angle), math.sin(angle)
+        broken = 1.0 if fracture <= t else 0.0
+        kick = None
+        if t < fracture < t + H:
+            kick = self._maps.kick(speed, t + H - fracture, angle + speed * (fracture - t))
+        coordinates = self._maps.coordinates(speed)
+        self._stepper.set_law(K, C)
+        end = self._stepper.advance(
+            coordinates,
+            self._maps.step(speed, H, t + H),
+            self._motion_in(coordinates),
+            journals,
+            F0,
+            np.array([cos, sin, broken * cos, broken * sin]),
+            kick,
+            state.static,
+        )
+        work = state.work
+        if self._ledger is not None:
+            after = journal_motion(coordinates, end, state.static)
+            held = self._stepper.held(F0, journals, after, state.static)
+            turn = (angle, speed)
+            done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), held, state.static)
+            work = Work(*(a + b for a, b in zip(work, done, strict=True)))
+        turned = math.fmod(angle + speed * H, 2.0 * math.pi)
+        self.set_state(RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work))
+
+    def energy(self) -> Energy:
+        """Kinetic energy of the vibration, strain energy and potential in gravity now [J]."""
+        return self._energy(self.modal_state(), self._state.static)
+
+    def work(self) -> Work:
+        """Works since the start [J]; the rotor must keep account of them (`track_work`)."""
+        if self._ledger is None:
+            raise ValueError("rotor: it keeps no account of works; set track_work at its creation")
+        return self._state.work
+
+    def fields(self) -> NodeFields:
+        """Displacement, vibration amplitude and normal stress at all nodes now."""
+        return self._fields.fields(self.modal_state(), self._state.static)
+
+    def extremes(self) -> Extremes:
+        """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
+        return self._fields.extremes(self.modal_state(), self._state.static)
+
+    def modal_state(self) -> Array:
+        """Modal displacements and velocities (p, p') of the vibration now, (2 m,); not to be changed."""
+        if self._modal is None:
+            self._modal = self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
+        return self._modal
+
+    def _motion_in(self, coordinates: Coordinates) -> Array:
+        if coordinates.speed == self._state.speed:
+            return self._state.motion
+        return coordinates.from_modal(self.modal_state())
+
+    def get_state(self) -> RotorState:
+        """The state now; it is never changed in place and may be kept without copying."""
+        return self._state
+
+    def set_state(self, state: RotorState) -> None:
+        """Go on from a state of this rotor or of another one of the same train and reduction."""
+        sizes = (len(state.motion), len(state.static.shape), len(state.static.wrench))
+        allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
+        if sizes != allowed:
+            raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
+        coordinates = self._maps.coordinates(state.speed)
+        if not state.basis:
+            state = replace(state, basis=coordinates.basis)
+        elif state.basis != coordinates.basis:
+            raise ValueError(
+                "rotor: the state was saved by another build or kind of processor, on which the modes of the "
+                "shaft come out in other vectors; go on there, or start anew"
+            )
+        self._state, self._modal = state, None
+        self._journals = journal_motion(coordinates, state.motion, state.static)
+
+    def _angle_at(self, time: float) -> float:
+        return math.fmod(self._speed * time, 2.0 * math.pi)
+
+
+def _array(values: ArrayLike) -> Array:
+    return np.asarray(values, dtype=np.float64)

@@ -1,0 +1,75 @@
+"""The state of a running rotor, copyable and as bytes."""
+
+from __future__ import annotations
+
+import math
+import struct
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.vibration.work import Work
+
+Array = NDArray[np.float64]
+
+_HEADER = struct.Struct("<8s3q5d16s")
+_MAGIC = b"rotor\0\0\3"  # the last byte is the version of the layout
+
+
+@dataclass(frozen=True, eq=False)
+class RotorState:
+    """All that a step depends on besides its arguments; never changed in place.
+
+    Attributes
+    ----------
+    motion : ndarray, (2 m,)
+        The vibration about the static equilibrium, see `rotor_fmu.vibration.coordinates`.
+    angle : float
+        Angle of rotation theta [rad], in [-2 pi, 2 pi].
+    static : Equilibrium
+        The static equilibrium: n displacements, 4 n_b journal displacements and wrenches.
+    speed : float or None
+        To which the coordinates of the motion belong [rad/s]; None for modal ones.
+    basis : bytes
+        Their fingerprint, 16 bytes; empty for those of the rotor at hand.
+    work : Work
+        Done since the start, if the rotor keeps account of it.
+    """
+
+    motion: Array
+    angle: float
+    static: Equilibrium[np.float64]
+    speed: float | None = None
+    basis: bytes = b""
+    work: Work = field(default_factory=Work)
+
+    def to_bytes(self) -> bytes:
+        """Write, little endian, without loss."""
+        static = self.static
+        sizes = (len(self.motion), len(static.shape), len(static.wrench))
+        speed = math.nan if self.speed is None else self.speed
+        header = _HEADER.pack(_MAGIC, *sizes, self.angle, speed, *self.work, self.basis)
+        arrays = (self.motion, static.shape, static.journals, static.wrench)
+        return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> RotorState:
+        """Read what `to_bytes` wrote.
+
+        Raises
+        ------
+        ValueError
+            If the bytes are not a rotor state.
+        """
+        if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
+            raise ValueError("rotor state: these bytes are not a rotor state of this version")
+        _, states, displacements, loads, angle, speed, *work, basis = _HEADER.unpack_from(data)
+        sizes = (states, displacements, loads, loads)
+        if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
+            raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
+        numbers = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
+        motion, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
+        static = Equilibrium(shape, journals, wrench)
+        return cls(motion, angle, static, None if math.isnan(speed) else speed, basis, Work(*work))
