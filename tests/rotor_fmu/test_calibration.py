@@ -3,7 +3,7 @@
 import pytest
 
 from orchestrator.study.paper.calibration.search import TARGETS, before_fracture, design_value, with_values
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign
+from rotor_fmu.train.turbine_geometry import TurbineDesign
 
 
 @pytest.fixture(scope="module")

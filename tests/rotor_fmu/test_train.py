@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
 from rotor_fmu.train.file import DATA, bundled_trains, load_train
 from rotor_fmu.train.train import Train
+from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 from rotor_fmu.train.writer import shaft_csv, train_toml, write_train
 
 

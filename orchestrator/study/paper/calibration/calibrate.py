@@ -22,7 +22,7 @@ from orchestrator.study.paper.calibration.search import (
     search,
     with_values,
 )
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
+from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 
 FIRST_GUESS = {
     "lp_wheel_mass": 30e3,

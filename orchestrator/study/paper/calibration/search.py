@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from orchestrator.study.paper.calibration.coupled import CoupledTrain
 from orchestrator.study.paper.calibration.measures import Steady, bearing_index, steady
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
+from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 
 ANALYSED = "LP1-front"
 """The analysed bearing."""

@@ -16,10 +16,10 @@ import numpy as np
 
 from orchestrator.study.paper.calibration.coupled import Blade, CoupledTrain
 from orchestrator.study.paper.calibration.measures import Fractured, bearing_index, fractured
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
 from orchestrator.study.paper.experiments.drawing import figure, save
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
+from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 
 WHEEL, ANALYSED, LOAD = "LP2-5", "LP2-front", 1.8e6
 CORES, UNBALANCES = (1.11, 1.20, 1.30, 1.45), (120.0, 160.0, 200.0)

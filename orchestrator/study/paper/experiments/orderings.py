@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from orchestrator.study.paper.calibration.coupled import CoupledTrain
 from orchestrator.study.paper.calibration.films import GAP
 from orchestrator.study.paper.calibration.measures import bearing_index
-from orchestrator.study.paper.calibration.turbine_geometry import turbine_train
 from orchestrator.study.paper.experiments.drawing import COLOURS, figure, save
+from rotor_fmu.train.turbine_geometry import turbine_train
 from rotor_fmu.vibration.rotor import Rotor
 
 WHEEL, UNBALANCE, ANALYSED, FRACTURE, END, STEP = "LP1-2", 265.0, "LP1-front", 0.2, 0.6, 1e-4

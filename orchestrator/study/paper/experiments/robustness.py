@@ -10,8 +10,8 @@ from dataclasses import replace
 
 from orchestrator.study.paper.calibration.coupled import Blade, CoupledTrain
 from orchestrator.study.paper.calibration.measures import Fractured, bearing_index, fractured
-from orchestrator.study.paper.calibration.turbine_geometry import TurbineDesign, turbine_train
 from orchestrator.study.paper.experiments.drawing import COLOURS, figure, save
+from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 
 ANALYSED, BLADE, END = "LP1-front", Blade("LP1-2", 265.0), 0.9
 CONTACT = (0.3e9, 1e9, 3e9, 10e9)

@@ -3,7 +3,7 @@
 The drawing of a real half-speed set is not public.  `turbine_train` draws a
 plausible one: HP, three LP, generator and exciter, 278 shoulders of 450 to 1600 mm
 on 68 m.  ``data/turbine`` holds its result for the default `TurbineDesign`;
-``python -m orchestrator.study.paper.calibration.turbine_geometry FOLDER`` writes it.
+``python -m rotor_fmu.train.turbine_geometry FOLDER`` writes it.
 """
 
 from __future__ import annotations
