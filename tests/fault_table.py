@@ -1,7 +1,7 @@
 """The table of faults in ``README.md``, written from the marks of the tests: ``python -m tests.fault_table``.
 
 With ``--check`` nothing is written, and the exit status is 1 where the page does not say what the marks say,
-or where a guard is not found that a mark would have taken away (see `tests.mutation`).
+or where a guard that a mark names does not exist (see `tests.guards`).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from tests.faults import AREAS
+from tests.guards import NoGuard, definition
 
 ROOT = Path(__file__).parents[1]
 PAGE = Path(__file__).with_name("README.md")
@@ -31,20 +32,14 @@ _TITLES = {
 }
 
 
-class NotOnce(ValueError):
-    """The text that a mutant replaces is not there exactly once."""
-
-
 @dataclass(frozen=True)
 class Fault:
     """A fault and the tests that prove what happens in it.
 
     Attributes
     ----------
-    area, case, outcome : str
+    area, case, outcome, guard : str
         As in `tests.faults.fault`.
-    broken : tuple of str
-        File, text, and what takes the guard away in its place.
     tests : tuple of str
         Node ids of pytest that carry the mark.
     """
@@ -52,23 +47,8 @@ class Fault:
     area: str
     case: str
     outcome: str
-    broken: tuple[str, str, str]
+    guard: str
     tests: tuple[str, ...]
-
-    def mutant(self, root: Path) -> str:
-        """Return the text of the file without the guard.
-
-        Raises
-        ------
-        NotOnce
-            If the text of the guard is not there exactly once.
-        """
-        name, old, new = self.broken
-        path = root / name
-        text = path.read_text(encoding="utf-8") if path.is_file() else ""
-        if text.count(old) != 1:
-            raise NotOnce(f"{name}: {old!r} occurs {text.count(old)} times, must be once")
-        return text.replace(old, new)
 
     @property
     def test(self) -> str:
@@ -80,7 +60,7 @@ class _Collector:
     """The plugin: keeps the marks of all collected tests."""
 
     def __init__(self) -> None:
-        self.marks: dict[tuple[str, str, str, tuple[str, str, str], str], list[str]] = {}
+        self.marks: dict[tuple[str, ...], list[str]] = {}
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
         """Group the items by what their marks say and by the function."""
@@ -88,7 +68,7 @@ class _Collector:
             for mark in item.iter_markers("fault"):
                 said = mark.kwargs
                 function = item.nodeid.partition("[")[0]
-                key = said["area"], said["case"], said["outcome"], tuple(said["broken"]), function
+                key = said["area"], said["case"], said["outcome"], said["guard"], function
                 self.marks.setdefault(key, []).append(item.nodeid)
 
     def faults(self) -> list[Fault]:
@@ -158,8 +138,8 @@ def main(arguments: Sequence[str]) -> int:
     problems = []
     for fault in faults:
         try:
-            fault.mutant(ROOT)
-        except NotOnce as error:
+            definition(fault.guard, ROOT)
+        except NoGuard as error:
             problems.append(f"{fault.test}: {error}")
     if new != old:
         problems.append(f"{PAGE.name} does not say what the marks say: run python -m tests.fault_table")

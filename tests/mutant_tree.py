@@ -1,4 +1,4 @@
-"""A copy of the working tree in which one guard after the other is taken away; see `tests.mutation`."""
+"""A copy of the working tree in which one mutant after the other lives; see `tests.mutation`."""
 
 from __future__ import annotations
 
@@ -20,6 +20,10 @@ from typing import Any
 import pytest
 
 from tests.fault_table import ROOT, Fault, collect
+from tests.guards import Mutant, mutants
+
+COMPILING = 240.0
+"""Time to compile all kernels anew [s]."""
 
 _COPIED = ("bearing_fmu", "rotor_fmu", "fmus", "orchestrator", "tests", "pyproject.toml", "README.md")
 
@@ -29,23 +33,39 @@ class Died(RuntimeError):
 
 
 class Outcomes:
-    """A plugin of pytest: keeps how each test ended."""
+    """A plugin of pytest: keeps how each test ended.
+
+    Attributes
+    ----------
+    passed : dict
+        Node id and time that a test took [s].
+    failed : dict
+        Node id and the phase or the type of the exception, with its words.
+    """
 
     def __init__(
-        self, passed: set[str] | None = None, failed: dict[str, tuple[str, str]] | None = None
+        self, passed: dict[str, float] | None = None, failed: dict[str, tuple[str, str]] | None = None
     ) -> None:
-        self.passed = passed or set()
-        self.failed = failed or {}  # by node id: phase or type of the exception, words
+        self.passed = passed or {}
+        self.failed = failed or {}
+        self._seconds = 0.0
+
+    def of(self, tests: Iterable[str]) -> Outcomes:
+        """Return what concerns these tests: their own outcomes, and what befell the run as a whole."""
+        passed = {test: self.passed[test] for test in tests if test in self.passed}
+        failed = {name: said for name, said in self.failed.items() if name in tests or "::" not in name}
+        return Outcomes(passed, failed)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Note what a phase of a test came to."""
+        self._seconds = report.duration + (self._seconds if report.when != "setup" else 0.0)
         if report.failed:
             crash = getattr(report.longrepr, "reprcrash", None)
             words = crash.message if crash else str(report.longrepr)
             where = words.partition(":")[0] if report.when == "call" else f"its {report.when}"
             self.failed[report.nodeid] = where.strip(), " ".join(words.split())
         elif report.passed and report.when == "call":
-            self.passed.add(report.nodeid)
+            self.passed[report.nodeid] = self._seconds
 
     def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
         """Note an interrupt that no guard kept from the test."""
@@ -65,7 +85,7 @@ class Tree:
     folder : Path
         Where it is made; it must exist.
     limit : float
-        Longest time for the tests of a mutant [s].
+        Time for the tests of a mutant beside what they usually take [s].
     """
 
     def __init__(self, folder: Path, limit: float) -> None:
@@ -84,42 +104,59 @@ class Tree:
         """Return the marks of the tests."""
         return [Fault(*fields) for fields in self._in_child(_collect)]
 
-    def baseline(self, faults: Iterable[Fault]) -> Outcomes:
+    def mutants(self, guard: str) -> list[Mutant]:
+        """Return the mutants of a guard of this tree."""
+        return mutants(guard, self.root)
+
+    def baseline(self, tests: Iterable[str]) -> Outcomes:
         """Run the tests with all guards in place; the kernels are compiled after that."""
-        tests = sorted({test for fault in faults for test in fault.tests})
-        outcomes = Outcomes(*self._in_child(_run_tests, tests, "", False, factor=len(tests)))
-        shutil.copytree(self.root / "bearing_fmu" / "__pycache__", self._kernels, dirs_exist_ok=True)
+        chosen = sorted(set(tests))
+        limit = COMPILING + self.limit * len(chosen)
+        outcomes = Outcomes(*self._in_child(_run_tests, chosen, "", False, limit=limit))
+        for folder in self._caches():
+            shutil.copytree(folder, self._kernels / folder.relative_to(self.root), dirs_exist_ok=True)
         self._stamp = self._in_child(_stamp)
         return outcomes
 
-    def without_guard(self, fault: Fault) -> Outcomes:
-        """Run the tests of a fault without its guard, up to the first that fails.
+    def with_mutant(self, mutant: Mutant, tests: Sequence[str], seconds: float) -> Outcomes:
+        """Run tests with a mutant; where there is but one, up to its failure.
+
+        Parameters
+        ----------
+        mutant : Mutant
+            One of `mutants`.
+        tests : sequence of str
+            Node ids.
+        seconds : float
+            What they take without the mutant [s]; they are given four times that, and `limit`.
 
         Raises
         ------
-        NotOnce
-            If the text to replace is not there exactly once.
         TimeoutError
             If the tests do not end within the limit.
         Died
             If they take their process with them.
         """
-        name, mutant = fault.broken[0], fault.mutant(self.root)
-        path = self.root / name
+        path = self.root / mutant.file
         path.rename(path.with_suffix(".whole"))  # keeps its time, which tells Python that its bytecode holds
         try:
-            path.write_text(mutant, encoding="utf-8")
-            stamp = "" if name in kernel_modules(self.root) else self._stamp
-            outcomes = Outcomes(*self._in_child(_run_tests, fault.tests, stamp, True))
+            path.write_text(mutant.text, encoding="utf-8")
+            compiled = mutant.file in kernel_modules(self.root)
+            stamp, limit = ("", self.limit + COMPILING) if compiled else (self._stamp, self.limit)
+            return Outcomes(*self._in_child(_run_tests, tests, stamp, True, limit=limit + 4.0 * seconds))
         finally:
             path.with_suffix(".whole").replace(path)
-            if name.startswith("bearing_fmu/"):
-                shutil.rmtree(self.root / "bearing_fmu" / "__pycache__")
-                shutil.copytree(self._kernels, self.root / "bearing_fmu" / "__pycache__")
-        return outcomes
+            if mutant.file.startswith("bearing_fmu/"):
+                for folder in self._caches():
+                    shutil.rmtree(folder)
+                shutil.copytree(self._kernels, self.root, dirs_exist_ok=True)
 
-    def _in_child(self, work: Callable[..., Any], *arguments: Any, factor: float = 1.0) -> Any:
+    def _caches(self) -> list[Path]:
+        return list((self.root / "bearing_fmu").rglob("__pycache__"))
+
+    def _in_child(self, work: Callable[..., Any], *arguments: Any, limit: float | None = None) -> Any:
         """Return what `work` returns, plain data, in a fork of this process that lives in the tree."""
+        limit = limit or self.limit
         context = multiprocessing.get_context("fork")
         here, there = context.Pipe(duplex=False)
         target = (there, self.root, self._base, self._log, work, arguments)
@@ -127,8 +164,8 @@ class Tree:
         process.start()
         there.close()
         try:
-            if not here.poll(self.limit * factor):
-                raise TimeoutError(f"no end after {self.limit * factor:g} s")
+            if not here.poll(limit):
+                raise TimeoutError(f"no end after {limit:.0f} s")
             return here.recv()
         except EOFError:
             log = self._log.read_text(errors="replace")[-2000:]
@@ -171,7 +208,7 @@ def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
     if stamp:  # no kernel changed: take those that are there
         importlib.import_module("bearing_fmu.kernels.compiled")._SOURCES = stamp  # type: ignore[attr-defined]
     outcomes = Outcomes()
-    pytest.main(["-x", *tests] if stop else [*tests], plugins=[outcomes])
+    pytest.main(["-x", *tests] if stop and len(tests) == 1 else [*tests], plugins=[outcomes])
     return outcomes.passed, outcomes.failed
 
 
@@ -181,5 +218,6 @@ def kernel_modules(root: Path) -> set[str]:
     for path in (root / "bearing_fmu").rglob("*.py"):
         imported = re.findall(r"^from (bearing_fmu\.[\w.]+) import", path.read_text(), flags=re.MULTILINE)
         if "bearing_fmu.kernels.compiled" in imported:
-            found |= {path.relative_to(root).as_posix(), *(f"{name.replace('.', '/')}.py" for name in imported)}
+            found |= {path.relative_to(root).as_posix()}
+            found |= {f"{name.replace('.', '/')}.py" for name in imported}
     return found

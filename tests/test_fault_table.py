@@ -16,11 +16,11 @@ def test_the_page_is_what_the_marks_say():
 
 
 def test_a_row_for_each_fault_below_its_area():
-    broken = ("a.py", "if x:", "if False:")
+    guard = "a.b:check"
     faults = [
-        Fault("unit", "it hangs | twice", "outcome unit_hung", broken, ("tests/a/test_b.py::test_c[1]",)),
+        Fault("unit", "it hangs | twice", "outcome unit_hung", guard, ("tests/a/test_b.py::test_c[1]",)),
         Fault(
-            "input", "no file", "exit 2", broken, ("tests/test_d.py::test_e[1]", "tests/test_d.py::test_e[2]")
+            "input", "no file", "exit 2", guard, ("tests/test_d.py::test_e[1]", "tests/test_d.py::test_e[2]")
         ),
     ]
     lines = table(faults).splitlines()

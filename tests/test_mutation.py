@@ -9,7 +9,7 @@ from tests.mutation import judged
 
 def outcomes(*failed, passed=()):
     result = Outcomes()
-    result.passed = set(passed)
+    result.passed = dict.fromkeys(passed, 1.0)
     result.failed = {f"test_{k}": each for k, each in enumerate(failed)}
     return result
 

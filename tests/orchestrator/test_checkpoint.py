@@ -84,11 +84,7 @@ def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
     "machine",
     "a full disk while a checkpoint is written",
     "the checkpoint before stays whole",
-    broken=(
-        "orchestrator/observers/checkpoint.py",
-        'fresh = path.with_name(path.name + ".part")',
-        "fresh = path",
-    ),
+    guard="orchestrator.observers.checkpoint:write",
 )
 def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     path = tmp_path / checkpoint.FILE
@@ -109,7 +105,7 @@ def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     "process",
     "no checkpoint, or one of another version",
     "exit 2; file, what it is and what is read",
-    broken=("orchestrator/observers/checkpoint.py", "if version != _VERSION:", "if False:"),
+    guard="orchestrator.observers.checkpoint:read",
 )
 def test_missing_and_damaged_checkpoints_are_said(tmp_path):
     with pytest.raises(CheckpointError, match="only a run with --checkpoint can be resumed"):
@@ -126,7 +122,7 @@ def test_missing_and_damaged_checkpoints_are_said(tmp_path):
     "process",
     "a checkpoint of other FMUs than those at hand",
     "CheckpointError; FMU, its GUID and the one found",
-    broken=("orchestrator/observers/checkpoint.py", "if saved != found:", "if False:"),
+    guard="orchestrator.observers.checkpoint:Checkpoint.restore_units",
 )
 def test_a_checkpoint_of_other_fmus_is_refused(toy, tmp_path):
     scenario = toy_scenario(tmp_path)

@@ -153,7 +153,7 @@ def test_mistakes_in_a_scenario_name_file_key_and_value(here, old, new, named):
     "input",
     "--out that names a folder with other files in it",
     "exit 2; the folder, `no earlier result`; nothing is written",
-    broken=("orchestrator/commands/run.py", "    check_folder(folder)\n", "    pass\n"),
+    guard="orchestrator.commands.run:carry_out_request",
 )
 def test_alien_folders_are_not_written_to(here, monkeypatch):
     monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: pytest.fail("went on"))

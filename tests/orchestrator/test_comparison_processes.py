@@ -78,11 +78,7 @@ def test_every_run_tells_its_progress_and_its_end(tmp_path):
     "process",
     "a worker that dies in `compare`",
     "`process-died` with signal or exit code, exit 8; the others go on",
-    broken=(
-        "orchestrator/study/paper/processes.py",
-        "end(run.task, message or _died(run))",
-        "end(run.task, message)",
-    ),
+    guard="orchestrator.study.paper.processes:run_all",
 )
 def test_a_process_that_dies_is_an_outcome_and_the_others_go_on(tmp_path):
     ended = run_all(tasks(tmp_path, "v1", "v2", "v3"), 3, lambda *_: None, work=two_die)
@@ -100,11 +96,7 @@ def test_no_more_runs_at_once_than_asked_for(tmp_path):
     "process",
     "wrong input that only a worker of `compare` finds",
     "exit 2 with its message; the other workers are ended",
-    broken=(
-        "orchestrator/study/paper/processes.py",
-        "if isinstance(message, OrchestratorError):",
-        "if False:",
-    ),
+    guard="orchestrator.study.paper.processes:run_all",
 )
 def test_wrong_input_found_by_a_run_is_an_error(tmp_path):
     with pytest.raises(OrchestratorError, match="no such bearing"):
@@ -115,11 +107,7 @@ def test_wrong_input_found_by_a_run_is_an_error(tmp_path):
     "process",
     "Ctrl-C in `compare`",
     "the runs under way end between two steps, no other starts; exit 130",
-    broken=(
-        "orchestrator/study/paper/processes.py",
-        "end(task, _not_started())",
-        "pass",
-    ),
+    guard="orchestrator.study.paper.processes:run_all",
 )
 def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):
     def interrupt(_name, message):
@@ -137,7 +125,7 @@ def test_an_interrupt_ends_the_runs_between_steps_and_starts_no_more(tmp_path):
     "process",
     "SIGTERM in `compare`",
     "as Ctrl-C, but `terminated`, exit 143",
-    broken=("orchestrator/study/paper/processes.py", "if asked[:1] == [signal.SIGTERM]", "if False"),
+    guard="orchestrator.study.paper.processes:run_all",
 )
 def test_a_request_to_terminate_ends_the_runs_by_that_name(tmp_path):
     def terminate(_name, message):

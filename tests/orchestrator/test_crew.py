@@ -39,7 +39,7 @@ def test_every_unit_steps_once(threads):
     "unit",
     "units that fail at the same time on several threads",
     "the error of the first in their order, as on one thread",
-    broken=("orchestrator/master/threads.py", "raise errors[min(errors)]", "raise errors[max(errors)]"),
+    guard="orchestrator.master.threads:Crew.step",
 )
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_the_first_error_in_the_order_of_units_counts_and_all_step(threads):

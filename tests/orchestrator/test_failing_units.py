@@ -12,8 +12,6 @@ from orchestrator.results.record_files import read_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call, with_text
 
-UNIT = "orchestrator/fmi/unit.py"
-
 
 @pytest.fixture
 def run(small_fmus, tmp_path, monkeypatch):
@@ -34,11 +32,7 @@ def run(small_fmus, tmp_path, monkeypatch):
     "unit",
     "an FMU that returns NaN",
     "exit 6, `not-finite`; bearing, time; no NaN in the motion that is recorded",
-    broken=(
-        "orchestrator/master/stepping.py",
-        "if not (math.isfinite(size) and math.isfinite(system.journals.sum())):",
-        "if False:",
-    ),
+    guard="orchestrator.master.stepping:Stepper._problem",
 )
 def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
     result = run(faulty, "nan")
@@ -52,7 +46,7 @@ def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
     "unit",
     "an FMU that returns a status that FMI does not know",
     "it counts as fatal: UnitError with outcome unit-failed",
-    broken=(UNIT, " if status in _STATUSES else Status.FATAL", ""),
+    guard="orchestrator.fmi.unit:Unit._fail",
 )
 def test_an_unknown_status(store, toy_fmus):
     unit = Unit(store.open(toy_fmus / "spring_damper.fmu"), "front")
@@ -66,11 +60,7 @@ def test_an_unknown_status(store, toy_fmus):
     "unit",
     "an FMU without a library for this platform",
     "exit 2; file and what is missing",
-    broken=(
-        UNIT,
-        "except Exception as error:  # fmpy raises bare exceptions here",
-        "except KeyError as error:",
-    ),
+    guard="orchestrator.fmi.unit:Unit.__init__",
 )
 def test_a_unit_of_another_platform(faulty, run, tmp_path):
     with ZipFile(faulty) as archive:
@@ -85,11 +75,7 @@ def test_a_unit_of_another_platform(faulty, run, tmp_path):
     "unit",
     "an FMU for model exchange, or of another version of FMI",
     "exit 2; file, `not an FMI 2.0 co-simulation unit` or the schema's complaint",
-    broken=(
-        "orchestrator/fmi/file.py",
-        'if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:',
-        "if False:",
-    ),
+    guard="orchestrator.fmi.file:FmuFile.__init__",
 )
 def test_a_unit_of_another_kind(small_fmus, run, tmp_path):
     source = small_fmus / "bearing_v3.fmu"

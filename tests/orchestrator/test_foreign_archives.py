@@ -16,68 +16,64 @@ from orchestrator.fmi.file import FmuStore
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_entry
 
-ARCHIVE, XML, FMU, READER = (
-    f"orchestrator/{name}.py" for name in ("fmi/archive", "fmi/xml", "fmi/file", "ssp/reader")
-)
 
-
-def entry_fault(case, outcome, old, new=""):
-    return fault("archive", case, f"exit 2; {outcome}", broken=(ARCHIVE, old, new))
+def entry_fault(case, outcome, guard):
+    return fault("archive", case, f"exit 2; {outcome}", guard=f"orchestrator.fmi.archive:{guard}")
 
 
 ENTRIES = [
     pytest.param(
         "/evil", {}, "'/evil' is absolute",
         marks=entry_fault(
-            "an entry with an absolute path", "archive, entry, `is absolute`", 'name.startswith("/") or '
+            "an entry with an absolute path", "archive, entry, `is absolute`", "_problem"
         ),
     ),
     pytest.param(
         "resources/../../../evil", {}, "'resources/../../../evil' leaves its folder",
         marks=entry_fault(
             "an entry with `..`", "archive, entry, `leaves its folder`",
-            'if not {"", ".", ".."}.isdisjoint(parts):', "if False:",
+            "_problem",
         ),
     ),
     pytest.param(
         "resources\\..\\evil", {}, "has a drive or a backslash",
         marks=entry_fault(
-            "an entry with backslashes", "archive, entry, `a drive or a backslash`", ' or "\\\\" in name'
+            "an entry with backslashes", "archive, entry, `a drive or a backslash`", "_problem"
         ),
     ),
     pytest.param(
         "C:evil", {}, "'C:evil' is absolute or has a drive",
-        marks=entry_fault("an entry on a drive", "archive, entry, `a drive`", ' or ":" in name'),
+        marks=entry_fault("an entry on a drive", "archive, entry, `a drive`", "_problem"),
     ),
     pytest.param(
         "resources/a\x1b[2Jb", {}, "control character",
         marks=entry_fault(
             "an entry with control characters in its name", "archive, entry, `control character`",
-            "if _UNFIT.search(name):", "if False:",
+            "_problem",
         ),
     ),
     pytest.param(
         "resources/link", {"content": b"/etc", "mode": stat.S_IFLNK}, "'resources/link' is a symbolic link",
         marks=entry_fault(
-            "a symbolic link", "archive, entry, `a symbolic link`", 'stat.S_IFLNK: "a symbolic link",'
+            "a symbolic link", "archive, entry, `a symbolic link`", "_KINDS"
         ),
     ),
     pytest.param(
         "resources/pipe", {"mode": stat.S_IFIFO | 0o666}, "'resources/pipe' is a pipe",
-        marks=entry_fault("a pipe or a device", "archive, entry, `is a pipe`", 'stat.S_IFIFO: "a pipe",'),
+        marks=entry_fault("a pipe or a device", "archive, entry, `is a pipe`", "_KINDS"),
     ),
     pytest.param(
         "modelDescription.xml", {}, "'modelDescription.xml' is there twice",
         marks=entry_fault(
             "two entries of one name, for tools to see one or the other", "archive, entry, `twice`",
-            'and entry.filename.rstrip("/") in files', "and False",
+            "_check",
         ),
     ),
     pytest.param(
         "resources/zeros", {"content": bytes(18 << 20)}, "'resources/zeros' makes more than 200 bytes of one",
         marks=entry_fault(
             "a size bomb: 18 MiB from 18 kB", "archive, entry, `more than 200 bytes of one`",
-            "if written > limits.free and written > limits.ratio * size:", "if False:",
+            "_write",
         ),
     ),
 ]  # fmt: skip
@@ -99,7 +95,7 @@ def test_an_entry_that_could_do_harm_ends_the_command(name, entry, said, small_f
     "archive",
     "an SSP with an entry outside its folder",
     "exit 2; archive, entry, `leaves its folder`; nothing extracted remains",
-    broken=(ARCHIVE, "            _check(path, entries, limits)\n", ""),
+    guard="orchestrator.fmi.archive:extract",
 )
 def test_an_ssp_is_extracted_with_the_same_care(small_ssp, small_fmus, room, tmp_path):
     path = with_entry(small_ssp, tmp_path / "foreign.ssp", "../evil")
@@ -120,7 +116,7 @@ def tampered(path, offset, value):
     "archive",
     "an encrypted entry",
     "exit 2; archive, entry, `is encrypted`",
-    broken=(ARCHIVE, "if entry.flag_bits & _ENCRYPTED:", "if False:"),
+    guard="orchestrator.fmi.archive:_problem",
 )
 def test_an_encrypted_entry(small_fmus, room, tmp_path):
     path = with_entry(small_fmus / "bearing_v3.fmu", tmp_path / "foreign.fmu", "resources/secret")
@@ -132,7 +128,7 @@ def test_an_encrypted_entry(small_fmus, room, tmp_path):
     "archive",
     "an entry compressed by a method of unbounded gain",
     "exit 2; archive, entry, `compressed by method`",
-    broken=(ARCHIVE, "if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):", "if False:"),
+    guard="orchestrator.fmi.archive:_problem",
 )
 def test_methods_of_compression(small_fmus, room, tmp_path):
     path = tmp_path / "foreign.fmu"
@@ -146,7 +142,7 @@ def test_methods_of_compression(small_fmus, room, tmp_path):
     "archive",
     "an entry that is longer than its header says",
     "exit 2; archive, `not a readable FMU`; nothing extracted remains",
-    broken=(ARCHIVE, "        shutil.rmtree(folder, ignore_errors=True)\n        if", "        if"),
+    guard="orchestrator.fmi.archive:extract",
 )
 def test_a_header_that_lies_about_the_size(small_fmus, room, tmp_path):
     path = with_entry(small_fmus / "bearing_v3.fmu", tmp_path / "foreign.fmu", "resources/x", bytes(1 << 20))
@@ -159,7 +155,7 @@ def test_a_header_that_lies_about_the_size(small_fmus, room, tmp_path):
     "archive",
     "more bytes, by the headers, than an archive may hold",
     "FmuError before anything is written; `more than the … MiB that are allowed`",
-    broken=(ARCHIVE, "if declared > limits.total:", "if False:"),
+    guard="orchestrator.fmi.archive:_check",
 )
 def test_the_sum_of_all_sizes(small_fmus, room, monkeypatch):
     monkeypatch.setattr(Path, "mkdir", None)  # nothing may be written
@@ -171,7 +167,7 @@ def test_the_sum_of_all_sizes(small_fmus, room, monkeypatch):
     "archive",
     "more entries than an archive may hold",
     "ArchiveError; number and what is allowed",
-    broken=(ARCHIVE, "if len(entries) > limits.entries:", "if False:"),
+    guard="orchestrator.fmi.archive:_check",
 )
 def test_the_number_of_entries(small_fmus, room):
     with pytest.raises(ArchiveError, match=r"bearing_v3\.fmu: holds \d+ entries; allowed are 3"):
@@ -182,7 +178,7 @@ def test_the_number_of_entries(small_fmus, room):
     "archive",
     "many FMUs, each of an allowed size, that fill the disk together",
     "FmuError; `more than the … MiB that are allowed`",
-    broken=(FMU, "self._left -= self._files[key].size", "pass"),
+    guard="orchestrator.fmi.file:FmuStore.open",
 )
 def test_all_fmus_of_a_run_share_one_limit(small_fmus, monkeypatch):
     monkeypatch.setattr("orchestrator.fmi.file.LIMITS", Limits(total=1_500_000))
@@ -196,7 +192,7 @@ def test_all_fmus_of_a_run_share_one_limit(small_fmus, monkeypatch):
     "machine",
     "a full disk, or a limit of file sizes, while an FMU is extracted",
     "exit 2; archive, folder, reason, `TMPDIR`; nothing extracted remains",
-    broken=(ARCHIVE, "error.errno in _NO_ROOM", "False"),
+    guard="orchestrator.fmi.archive:extract",
 )
 def test_no_room_for_what_is_extracted(small_fmus, room):
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)

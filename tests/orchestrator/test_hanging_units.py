@@ -20,7 +20,6 @@ from orchestrator.study.paper.worker import Task
 from tests.faults import fault
 from tests.orchestrator.commands import done
 
-DOG = "orchestrator/fmi/watchdog.py"
 HUNG = (
     "exit 12, `unit-hung`; unit, call, time; the record up to there in `-partial`, nothing extracted remains"
 )
@@ -54,7 +53,7 @@ def run(faulty, small_fmus, tmp_path):
                 "unit",
                 "an FMU that waits for ever in a step",
                 HUNG,
-                broken=(DOG, "if spent >= self.budget * self.patience:", "if False:"),
+                guard="orchestrator.fmi.watchdog:Watchdog._watch",
             ),
         ),
         pytest.param(
@@ -64,7 +63,7 @@ def run(faulty, small_fmus, tmp_path):
                 "unit",
                 "an FMU in an endless loop, on a thread of its own",
                 HUNG,
-                broken=(DOG, "if frame.f_globals is vars(unit):", "if frame is None:"),
+                guard="orchestrator.fmi.watchdog:_unit_calls",
             ),
         ),
     ],
@@ -86,7 +85,7 @@ def test_a_unit_that_hangs_in_a_step(how, options, run, tmp_path):
     "unit",
     "an FMU that hangs before the first step",
     "exit 12, `unit-hung`; unit and call, after ten times the budget, for films may have to be compiled",
-    broken=(DOG, "PATIENCE = 10.0", "PATIENCE = 1e9"),
+    guard="orchestrator.fmi.watchdog:PATIENCE",
 )
 def test_a_unit_that_hangs_before_the_first_step(run, tmp_path):
     status, errors = run("start", "--budget", 0.2)
@@ -99,7 +98,7 @@ def test_a_unit_that_hangs_before_the_first_step(run, tmp_path):
     "unit",
     "a native FMU that hangs and does not let go of Python's lock",
     "exit 1 after twice the budget; a traceback with the call",
-    broken=(DOG, "faulthandler.dump_traceback_later(limit, exit=True, file=sys.__stderr__)", "pass"),
+    guard="orchestrator.fmi.watchdog:_arm_last_resort",
 )
 def test_a_unit_that_keeps_the_lock(run, tmp_path):
     status, errors = run("lock", "--budget", 0.2)
@@ -112,11 +111,7 @@ def test_a_unit_that_keeps_the_lock(run, tmp_path):
     "unit",
     "a native FMU, which Python's lock would keep the watchdog from watching",
     "it is called without the lock",
-    broken=(
-        "orchestrator/fmi/file.py",
-        "kind = ctypes.PyDLL if self.is_python else ctypes.CDLL",
-        "kind = ctypes.PyDLL",
-    ),
+    guard="orchestrator.fmi.file:FmuFile.library",
 )
 def test_native_units_are_called_without_the_lock(store, toy_fmus, tmp_path):
     assert isinstance(store.open(toy_fmus / "spring_damper.fmu").library, ctypes.PyDLL)
@@ -138,7 +133,7 @@ def waiting(event):
     "process",
     "a run that is suspended, or a computer that sleeps, for longer than the budget",
     "the run goes on",
-    broken=(DOG, "min(now - before, 2.0 * period)", "now - before"),
+    guard="orchestrator.fmi.watchdog:Watchdog._watch",
 )
 def test_the_time_of_a_suspended_process_does_not_count(monkeypatch):
     asleep, back, given_up = threading.Event(), threading.Event(), []
@@ -173,7 +168,7 @@ def test_calls_that_come_back_do_not_add_up():
     "process",
     "a unit that hangs in a run of `compare`",
     "that run is `unit-hung`, with its record; the others go on",
-    broken=("orchestrator/study/paper/worker.py", "Watchdog(task.budget", "Watchdog(0.0"),
+    guard="orchestrator.study.paper.worker:simulate_task",
 )
 def test_a_hanging_unit_ends_the_process_of_its_run(faulty, small_fmus, tmp_path, monkeypatch):
     monkeypatch.setenv("FAULT", "sleep")

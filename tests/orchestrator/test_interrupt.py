@@ -13,11 +13,7 @@ from tests.faults import fault
     "process",
     "Ctrl-C while a unit is in a call",
     "it waits for the end of the step: a unit that is interrupted is lost",
-    broken=(
-        "orchestrator/master/interrupt.py",
-        "        due.append(number)",
-        "        raise SIGNALS[number]",
-    ),
+    guard="orchestrator.master.interrupt:interrupt_between_steps",
 )
 def test_the_next_report_raises_and_the_handler_is_restored():
     before, seen = signal.getsignal(signal.SIGINT), []
@@ -38,11 +34,7 @@ def test_the_next_report_raises_and_the_handler_is_restored():
     "process",
     "Ctrl-C twice",
     "the second is not held back",
-    broken=(
-        "orchestrator/master/interrupt.py",
-        "        if due:\n            raise SIGNALS[number]",
-        "        if False:\n            raise SIGNALS[number]",
-    ),
+    guard="orchestrator.master.interrupt:interrupt_between_steps",
 )
 def test_a_second_interrupt_is_not_held_back():
     with interrupt_between_steps(lambda stage, time: None), pytest.raises(KeyboardInterrupt):

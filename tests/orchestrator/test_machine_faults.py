@@ -20,9 +20,6 @@ from tests.orchestrator.commands import done
 from tests.orchestrator.foreign import call
 from tests.orchestrator.limits import under_limit
 
-FILES, FOLDER, COMMAND = (
-    f"orchestrator/{name}.py" for name in ("results/files", "results/folder", "commands/run")
-)
 NOT_WRITTEN = exit_status.STATUS[Outcome.NOT_WRITTEN]
 
 
@@ -42,7 +39,7 @@ def run(short, fmus, *options):
     "machine",
     "a full disk when the results are written",
     "exit 13, `not-written`; folder, needed and free room; no folder; the checkpoint is kept",
-    broken=(FILES, "except OSError as error:", "except ZeroDivisionError as error:"),
+    guard="orchestrator.results.files:room_for",
 )
 def test_a_full_disk_at_the_end_of_a_run(short, small_fmus, monkeypatch):
     with monkeypatch.context() as patch:
@@ -62,7 +59,7 @@ def test_a_full_disk_at_the_end_of_a_run(short, small_fmus, monkeypatch):
     "machine",
     "a full disk when the figures are drawn",
     "exit 13, `not-written`; record and summary are there, PARTIAL.txt says that the figures are not",
-    broken=(FILES, '(fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")', "pass"),
+    guard="orchestrator.results.files:data_then_figures",
 )
 def test_a_full_disk_while_figures_are_drawn(short, small_fmus, monkeypatch):
     monkeypatch.setattr(result_files, "add_figures", under_limit(1000, result_files.add_figures))
@@ -82,11 +79,7 @@ def test_a_complete_folder_is_not_marked(short, small_fmus):
     "machine",
     "a disk that is full for HDF5, which ends the process when it cannot close a file",
     "the record is made in memory: an error, and no file",
-    broken=(
-        "orchestrator/results/record_files.py",
-        "path.write_bytes(netcdf(record))",
-        'record.to_netcdf(path, engine="h5netcdf")',
-    ),
+    guard="orchestrator.results.record_files:write_record",
 )
 def test_hdf5_does_not_end_the_process(tmp_path):
     code = """
@@ -109,7 +102,7 @@ except OSError as error:
     "machine",
     "a disk that is full for some time while checkpoints are written",
     "a warning with file, time and reason; the checkpoint before stays whole, and the run goes on",
-    broken=("orchestrator/observers/checkpoint.py", "self.warn(", "raise OSError("),
+    guard="orchestrator.observers.checkpoint:Checkpoints.save",
 )
 def test_a_checkpoint_that_cannot_be_written(short, small_fmus, monkeypatch):
     write, times = checkpoint.write, []
@@ -133,7 +126,7 @@ def test_a_checkpoint_that_cannot_be_written(short, small_fmus, monkeypatch):
     "machine",
     "a place for checkpoints that is no folder, or cannot be written to",
     "exit 2 before the run; path",
-    broken=(COMMAND, "check_writable(checkpoint_folder(folder))", "pass"),
+    guard="orchestrator.commands.run:carry_out_request",
 )
 def test_checkpoints_that_could_never_be_written(short, small_fmus):
     (short.parent / "out-checkpoint").write_text("mine")
@@ -146,11 +139,7 @@ def test_checkpoints_that_could_never_be_written(short, small_fmus):
     "machine",
     "a read-only folder for the results",
     "exit 2 before the run; folder and reason",
-    broken=(
-        FOLDER,
-        "with tempfile.TemporaryFile(dir=parent) as file:",
-        "with tempfile.TemporaryFile() as file:",
-    ),
+    guard="orchestrator.results.folder:check_writable",
 )
 def test_results_that_could_never_be_written(short, small_fmus):
     result = call("run", short, "--fmus", small_fmus, "--out", "/proc/out")
@@ -162,7 +151,7 @@ def test_results_that_could_never_be_written(short, small_fmus):
     "machine",
     "a disk that has less room than the record will need",
     "exit 2 before the run; folder, needed and free room",
-    broken=(FOLDER, "if free < needed:", "if False:"),
+    guard="orchestrator.results.folder:check_room",
 )
 @pytest.mark.parametrize("command", ["run", "compare"])
 def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
@@ -178,7 +167,7 @@ def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
     "machine",
     "a read-only folder for the FMUs",
     "exit 2; folder, `FMUs cannot be built there`, reason",
-    broken=("orchestrator/fmi/folder.py", "except OSError as error:", "except ZeroDivisionError as error:"),
+    guard="orchestrator.fmi.folder:ensure_fmus",
 )
 def test_fmus_that_cannot_be_built(short):
     result, _ = run(short, "/proc/fmus")
@@ -190,11 +179,7 @@ def test_fmus_that_cannot_be_built(short):
     "machine",
     "a full disk in one run of `compare`",
     "that run is `not-written`, with folder and reason; the others go on",
-    broken=(
-        "orchestrator/study/paper/worker.py",
-        "except NotWrittenError as error:",
-        "except ZeroDivisionError as error:",
-    ),
+    guard="orchestrator.study.paper.worker:_conclude",
 )
 def test_a_run_of_compare_that_cannot_write(small_fmus, tmp_path, monkeypatch):
     class Pipe:
@@ -213,7 +198,7 @@ def test_a_run_of_compare_that_cannot_write(small_fmus, tmp_path, monkeypatch):
     "machine",
     "a full disk when an investigation of the linearised train is written",
     "exit 13; folder, needed and free room; no folder",
-    broken=("orchestrator/linear/case.py", "room_for(data, request.folder), ", ""),
+    guard="orchestrator.linear.case:write_results",
 )
 def test_a_full_disk_at_the_end_of_a_linear_command(tmp_path, monkeypatch):
     monkeypatch.setattr(campbell_command, "write_results", under_limit(100, campbell_command.write_results))

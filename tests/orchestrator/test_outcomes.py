@@ -45,7 +45,7 @@ def with_springs(monkeypatch, name, **values):
     "unit",
     "an outcome without an exit status, or with that of another",
     "every outcome has a status of its own, and 0 is that of a finished run alone",
-    broken=("orchestrator/exit_status.py", "Outcome.FILM_FAILED: 11", "Outcome.FILM_FAILED: 4"),
+    guard="orchestrator.exit_status:STATUS",
 )
 def test_every_outcome_has_its_own_exit_status_and_advice():
     assert set(exit_status.STATUS) == set(Outcome)
@@ -72,7 +72,7 @@ def test_old_numbers_stay():
     "unit",
     "a unit refuses a step for good",
     "step-refused, exit 4; bearing, time, its reason, its last state",
-    broken=("orchestrator/fmi/unit_error.py", "if status is not Status.DISCARD:", "if True:"),
+    guard="orchestrator.fmi.unit_error:UnitError.__init__",
 )
 def test_a_unit_that_refuses_for_good(fmus, tmp_path, monkeypatch):
     with_springs(monkeypatch, "rear", refuse_after=0.0105)
@@ -88,7 +88,7 @@ def test_a_unit_that_refuses_for_good(fmus, tmp_path, monkeypatch):
     "unit",
     "an FMU ends with an error that it cannot recover from",
     "unit-failed, exit 5; bearing, time, last state; record up to there",
-    broken=("orchestrator/fmi/unit_error.py", "Outcome.UNIT_FAILED", "Outcome.STEP_REFUSED"),
+    guard="orchestrator.fmi.unit_error:UnitError.__init__",
 )
 def test_a_unit_that_breaks(fmus, tmp_path, monkeypatch):
     with_springs(monkeypatch, "rear", break_after=0.0105)
@@ -104,7 +104,7 @@ def test_a_unit_that_breaks(fmus, tmp_path, monkeypatch):
     "film",
     "a film that fails for one step",
     "the step is taken back and halved, the run finishes; discarded steps are counted",
-    broken=("orchestrator/master/stepping.py", "if error.status is not Status.DISCARD or", "if True or"),
+    guard="orchestrator.master.stepping:Stepper._attempt",
 )
 def test_a_film_that_fails_for_one_step(fmus, tmp_path, monkeypatch):
     window = {"refuse_from": 0.0102, "refuse_to": 0.0112, "refuse_over": 6e-4}
@@ -120,7 +120,7 @@ def test_a_film_that_fails_for_one_step(fmus, tmp_path, monkeypatch):
     "coupling",
     "a step misses its tolerance at every length",
     "tolerance-missed, exit 9; time, the worst bearing and its last state, the defect, what is allowed",
-    broken=("orchestrator/master/stepping.py", "size > self._tolerance:", "False:"),
+    guard="orchestrator.master.stepping:Stepper._problem",
 )
 def test_a_tolerance_that_cannot_be_met(fmus, tmp_path):
     blade = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
@@ -136,7 +136,7 @@ def test_a_tolerance_that_cannot_be_met(fmus, tmp_path):
     "coupling",
     "a journal's motion is no longer a number",
     "not-finite, exit 6; the bearing is named, the step taken back",
-    broken=("orchestrator/master/stepping.py", "if not (math.isfinite(size)", "if not (True"),
+    guard="orchestrator.master.stepping:Stepper._problem",
 )
 def test_a_motion_that_is_not_finite_names_the_bearing(store, toy_fmus):
     system = released(store, toy_fmus)
@@ -172,7 +172,7 @@ def test_a_rotor_that_fails_shows_the_bearing_farthest_out(store, toy_fmus):
     "process",
     "a run that did not finish is read by a script",
     "summary.json and summary.txt: outcome, exit status, message, advice",
-    broken=("orchestrator/results/summary.py", "exit_status=of_outcome(result.outcome)", "exit_status=0"),
+    guard="orchestrator.results.summary:summarise",
 )
 def test_the_summary_says_outcome_status_message_and_advice(outcome):
     record = synthetic_record.record(end=1.1)
@@ -199,7 +199,7 @@ def test_a_unit_error_carries_the_outcome():
     "process",
     "the page for users leaves out a way a run can end",
     "README.md has the table of outcomes and exit statuses, word for word that of the program",
-    broken=("orchestrator/outcome.py", '"The run reached its end time."', '"The run reached the end."'),
+    guard="orchestrator.outcome:Outcome.FINISHED",
 )
 def test_the_readme_has_every_outcome_with_its_status_and_advice():
     readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")

@@ -19,7 +19,6 @@ from tests.faults import fault
 from tests.orchestrator.commands import command, done
 from tests.orchestrator.foreign import call
 
-FOLDER, CLAIM = "orchestrator/results/folder.py", "orchestrator/results/folder_lock.py"
 SCENARIO = 'train = "small"\nend = 0.3\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
 
 
@@ -45,7 +44,7 @@ def whole(small_fmus, tmp_path_factory):
                 "Ctrl-C in a run with checkpoints",
                 "exit 130, `interrupted`; the record in `-partial`; `resume` from that very step gives the "
                 "record of an undisturbed run, to the bit",
-                broken=("orchestrator/master/time_loop.py", "save(k, time, stepper, True)", "pass"),
+                guard="orchestrator.master.time_loop:run",
             ),
         ),
         pytest.param(
@@ -55,7 +54,7 @@ def whole(small_fmus, tmp_path_factory):
                 "process",
                 "SIGTERM in a run with checkpoints, as batch systems send it",
                 "exit 143, `terminated`; otherwise as Ctrl-C",
-                broken=("orchestrator/master/interrupt.py", "    signal.SIGTERM: Terminated,\n", ""),
+                guard="orchestrator.master.interrupt:SIGNALS",
             ),
         ),
     ],
@@ -86,7 +85,7 @@ def test_a_signal_ends_a_run_that_can_go_on(number, outcome, whole, small_fmus, 
     "process",
     "SIGTERM before the time loop, as when FMUs are built or films compiled",
     "exit 143, `terminated; nothing was written`; what was extracted is removed",
-    broken=("orchestrator/cli/options.py", "with handled(raise_at_once):", "if True:"),
+    guard="orchestrator.cli.options:guarded",
 )
 def test_a_signal_before_the_run(small_fmus, tmp_path):
     code = """
@@ -106,7 +105,7 @@ main()
     "process",
     "two runs to one folder at once",
     "exit 2 for the second; folder, `another run`; the first is not disturbed",
-    broken=(CLAIM, "fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)", "pass"),
+    guard="orchestrator.results.folder_lock:_lock",
 )
 def test_two_runs_to_one_folder(small_fmus, tmp_path):
     out = tmp_path / "out"
@@ -157,7 +156,7 @@ def results(folder, text):
     "process",
     "kill -9 while earlier results are replaced",
     "the folder is marked: PARTIAL.txt with the reason; the next run to it cleans up",
-    broken=(FOLDER, "    mark.write_text(", "    str("),
+    guard="orchestrator.results.folder:_replace",
 )
 def test_a_kill_while_results_are_replaced(moves, tmp_path):
     out = tmp_path / "out"
@@ -190,7 +189,7 @@ def test_a_kill_while_results_are_replaced(moves, tmp_path):
     "process",
     "kill -9 while results are written",
     "the earlier results stay as they are; the next run removes what was half-written",
-    broken=(CLAIM, "_remove_rests(place.parent, temporary_prefix(place))", "pass"),
+    guard="orchestrator.results.folder_lock:claim",
 )
 def test_a_kill_while_results_are_written(tmp_path):
     out = tmp_path / "out"
@@ -214,11 +213,7 @@ def test_a_kill_while_results_are_written(tmp_path):
     "process",
     "a checkpoint that is cut short, changed or empty",
     "exit 2; file, `not a readable checkpoint`",
-    broken=(
-        "orchestrator/observers/checkpoint.py",
-        "except Exception as error:",
-        "except ZeroDivisionError as error:",
-    ),
+    guard="orchestrator.observers.checkpoint:read",
 )
 def test_a_damaged_checkpoint(damage, tmp_path):
     import numpy as np

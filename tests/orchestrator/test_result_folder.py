@@ -32,11 +32,7 @@ def test_a_new_folder_appears_with_its_parents(tmp_path):
     "machine",
     "an error while results are written",
     "no folder, and no parent that was made for it",
-    broken=(
-        "orchestrator/results/folder.py",
-        "        shutil.rmtree(temporary, ignore_errors=True)",
-        "        pass",
-    ),
+    guard="orchestrator.results.folder:result_folder",
 )
 def test_nothing_is_left_when_writing_fails(tmp_path):
     target = tmp_path / "results" / "run"
@@ -72,11 +68,7 @@ def test_an_earlier_result_survives_a_failure(tmp_path):
     "machine",
     "`--out` names a folder with other files",
     "exit 2; `no earlier result`; nothing is overwritten",
-    broken=(
-        "orchestrator/results/folder.py",
-        "if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():",
-        "if False:",
-    ),
+    guard="orchestrator.results.folder:check_folder",
 )
 def test_a_folder_with_alien_files_is_refused(tmp_path):
     (tmp_path / "thesis.tex").write_text("")

@@ -27,11 +27,10 @@ rows = 8
 [record]
 interval = 5e-4
 """
-PROBLEMS, MODEL = "orchestrator/scenario/problems.py", "orchestrator/scenario/scenario.py"
 
 
-def case(old, new, line, words, name, outcome, *, broken):
-    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, broken=broken))
+def case(old, new, line, words, name, outcome, *, guard):
+    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, guard=guard))
 
 
 CASES = [
@@ -39,90 +38,90 @@ CASES = [
         'wheel = "wheel-2"', 'wheel = "front"', 8,
         "event.wheel = 'front': no such wheel ('front' is a bearing); allowed are wheel-1, wheel-2, wheel-3",
         "a blade lost from what is no wheel", "exit 2; line, what it is instead, all wheels",
-        broken=(PROBLEMS, "if isinstance(wheel, str) and wheel not in wheels:", "if False:"),
+        guard="orchestrator.scenario.problems:name_problems",
     ),
     case(
         "[film]", "[unbalance.at.front]\nunbalance = 0.1\n[film]", 13,
         "unbalance.at.front: no such wheel ('front' is a bearing); allowed are wheel-1, wheel-2, wheel-3",
         "an unbalance on a node that is no wheel", "exit 2; line, what it is instead, all wheels",
-        broken=(PROBLEMS, "        if name not in wheels:", "        if False:"),
+        guard="orchestrator.scenario.problems:name_problems",
     ),
     case(
         "[film]", '[depth_at]\nfrnt = "v2"\n[film]', 14,
         "depth_at.frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "a misspelt bearing", "exit 2; line, the likely spelling, all bearings",
-        broken=(PROBLEMS, "        if name not in bearings:", "        if False:"),
+        guard="orchestrator.scenario.problems:name_problems",
     ),
     case(
         "[film]", '[depth_at]\nfront = "own.fmu"\n[film]', 14, "depth_at.front = 'own.fmu': no such file",
         "a bearing's FMU that is not there", "exit 2; line, key, path",
-        broken=(PROBLEMS, "and is_fmu(depth) and not (folder / depth).is_file()", "and False"),
+        guard="orchestrator.scenario.problems:file_problems",
     ),
     case(
         "step = 1e-4", "step = 2.1e-3", 3,
         "step = 0.0021; allowed is at most a tenth of a revolution of train 'small', 0.002 s",
         "a step longer than a tenth of a revolution", "exit 2; line, value, the longest step",
-        broken=(PROBLEMS, "if scenario.step > longest:", "if False:"),
+        guard="orchestrator.scenario.problems:time_problems",
     ),
     case(
         "end = 0.2", "end = 5e-5", 3, "step = 0.0001; allowed is at most the end time, 5e-05 s",
         "a step longer than the run", "exit 2; line, value, the end time",
-        broken=(PROBLEMS, "if scenario.step > scenario.end:", "if False:"),
+        guard="orchestrator.scenario.problems:time_problems",
     ),
     case(
         "end = 0.2", "end = 0.1", 10, "event.time = 0.1; allowed is a time before the end, 0.1 s",
         "an end before the event", "exit 2; line, both times, how to run without the event",
-        broken=(PROBLEMS, " and scenario.event.time >= scenario.end:", " and False:"),
+        guard="orchestrator.scenario.problems:time_problems",
     ),
     case(
         "unbalance = 0.5", "unbalance = 1000.0", 9,
         "event.unbalance = 1000.0; allowed is at most 900 kg m, all of wheel 'wheel-2' at its mean radius;",
         "a blade heavier than its wheel", "exit 2; line, value, the wheel's mass times its radius, the slip",
-        broken=(PROBLEMS, "if 0.0 < most < unbalance:", "if False:"),
+        guard="orchestrator.scenario.problems:unbalance_problems",
     ),
     case(
         "phase = 0.0", "phase = -45", 11,
         "event.phase = -45; allowed is a number of at least -6.3 rad; did you give degrees?",
         "the phase of the blade in degrees", "exit 2; line, value, range, the likely slip",
-        broken=(MODEL, "Field(ge=-6.3, le=6.3,", "Field("),
+        guard="orchestrator.scenario.scenario:Angle",
     ),
     case(
         "[film]", "[unbalance]\ngrade = 2.5\n[film]", 14,
         "unbalance.grade = 2.5; allowed is a number of at most 0.1 m/s; G2.5 is 2.5e-3",
         "a scenario's balance grade in mm/s", "exit 2; line, value, range, what G2.5 is",
-        broken=(MODEL, "Field(ge=0.0, le=0.1,", "Field(ge=0.0,"),
+        guard="orchestrator.scenario.scenario:Grade",
     ),
     case(
         "rows = 8", "rows = 31", 14, "film.rows = 31; allowed is a number of at most 30",
         "a film resolution that the bearings refuse", "exit 2; line, value, range",
-        broken=(MODEL, "Field(ge=3, le=30)", "Field(ge=3, le=64)"),
+        guard="orchestrator.scenario.scenario:FilmResolution.rows",
     ),
     case(
         "unbalance = 0.5", "unbalance = inf", 9, "event.unbalance = inf; allowed is a finite number",
         "a number that is infinite", "exit 2; line, key, value",
-        broken=(MODEL, "Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]", "Positive = float"),
+        guard="orchestrator.scenario.scenario:Positive",
     ),
     case(
         "step = 1e-4", "step = true", 3, "step = True; allowed is a number",
         "true in place of a number", "exit 2; line, key, value; not taken for 1",
-        broken=(MODEL, "frozen=True, strict=True", "frozen=True, strict=False"),
+        guard="orchestrator.scenario.scenario:_Model.model_config",
     ),
     case(
         "end = 0.2\nstep = 1e-4", "end = 200.0\nstep = 1e-9", 3,
         "step = 1e-09; allowed is at least 2e-07 s, a billionth",
         "a run of so many steps that it would never end", "exit 2; line, value, the shortest step",
-        broken=(PROBLEMS, "if scenario.step < scenario.end / MOST_STEPS:", "if False:"),
+        guard="orchestrator.scenario.problems:time_problems",
     ),
     case(
         'coupling = "linear-implicit"', 'coupling = "linear"', 5,
         "coupling = 'linear'; did you mean 'linear-implicit'?",
         "a misspelt coupling", "exit 2; line, the likely spelling, all couplings",
-        broken=(PROBLEMS, 'elif kind == "literal_error":', "elif False:"),
+        guard="orchestrator.scenario.problems:shape_problems",
     ),
     case(
         "[film]", "[flim]", 13, "flim: unknown key; did you mean 'film'? allowed are title, train,",
         "a misspelt table", "exit 2; line, the likely spelling, all keys",
-        broken=(MODEL, 'extra="forbid"', 'extra="ignore"'),
+        guard="orchestrator.scenario.scenario:_Model.model_config",
     ),
 ]  # fmt: skip
 
@@ -145,7 +144,7 @@ def test_a_fault_in_the_scenario(tmp_path, old, new, line, words):
     "input",
     "a record larger than the memory of the machine",
     "exit 2; both sizes, an earlier end or the interval that fits",
-    broken=(PROBLEMS, "    if size > memory:", "    if False:"),
+    guard="orchestrator.scenario.problems:time_problems",
 )
 def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     scenario = parse_scenario(TEXT, tmp_path, "my.toml")
@@ -163,7 +162,7 @@ def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     "input",
     "a train that does not exist",
     "exit 2; line, the likely name, all bundled trains",
-    broken=("rotor_fmu/train/file.py", "{choice(path.name, bundled_trains())}", "none"),
+    guard="rotor_fmu.train.file:_path_of",
 )
 def test_a_train_that_does_not_exist(tmp_path):
     words = r"^my.toml: line 1: train = 'smal': .*smal: no such train; did you mean 'small'\? allowed are"
@@ -175,7 +174,7 @@ def test_a_train_that_does_not_exist(tmp_path):
     "input",
     "a scenario that does not exist",
     "exit 2; the likely name, all bundled scenarios",
-    broken=("orchestrator/scenario/file.py", "elif not path.exists():", "elif False:"),
+    guard="orchestrator.scenario.file:load_scenario",
 )
 def test_a_scenario_that_does_not_exist():
     with pytest.raises(

@@ -106,7 +106,7 @@ def test_depths_mix(fmus, tmp_path):
     "film",
     "a film that fails for good at one bearing",
     "film-failed, exit 11; bearing, time, eccentricity ratio, tilts, least gap; record up to there",
-    broken=("orchestrator/fmi/unit_error.py", "elif FILM_FAILED in reason:", "elif False:"),
+    guard="orchestrator.fmi.unit_error:UnitError.__init__",
 )
 def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, tmp_path):
     result = simulate(toy_scenario(tmp_path, event={**BLADE, "unbalance": 1e3}), fmus)
@@ -133,7 +133,7 @@ def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, t
     "film",
     "a bearing that does not carry its static load",
     "no-equilibrium, exit 3; bearing, load, what it carries; an empty record",
-    broken=("orchestrator/master/start/journal_position.py", "    if short.any():", "    if False:"),
+    guard="orchestrator.master.start.journal_position:aligned_positions",
 )
 def test_without_equilibrium_there_is_an_empty_record_and_a_reason(fmus, tmp_path):
     scenario = toy_scenario(tmp_path)

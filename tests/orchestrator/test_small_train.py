@@ -189,7 +189,7 @@ def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
     "unit",
     "an FMU built from other sources than those of the process",
     "no-equilibrium, exit 3; the bearing, `FMU refused`, the package, and to rebuild",
-    broken=("fmus/unit/loader.py", "self._say(Fmi2Status.warning)", "pass"),
+    guard="fmus.unit.loader:_refusing",
 )
 def test_an_fmu_of_other_sources_is_refused_with_its_reason(fmus, tmp_path):
     assert simulate(small(depth="v3", **CALM), fmus).outcome is Outcome.FINISHED  # its sources are loaded now

@@ -5,15 +5,13 @@ import pytest
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_text
 
-CONTENTS = "orchestrator/ssp/contents.py"
-
 
 def value(name, number):
     return f'name="{name}">\n      <ssv:Real value="{number}" />'
 
 
-def case(member, old, new, words, name, outcome, *, broken):
-    return pytest.param(member, old, new, words, id=name, marks=fault("input", name, outcome, broken=broken))
+def case(member, old, new, words, name, outcome, *, guard):
+    return pytest.param(member, old, new, words, id=name, marks=fault("input", name, outcome, guard=guard))
 
 
 @pytest.mark.parametrize(
@@ -26,7 +24,7 @@ def case(member, old, new, words, name, outcome, *, broken):
             "unbalance.at.wheel-2.phase = 90.0; allowed is a number of at most 6.3 rad; did you give deg",
             "an SSP with a phase in degrees",
             "exit 2; wheel, value, range, the likely slip",
-            broken=("orchestrator/scenario/scenario.py", "Field(ge=-6.3, le=6.3,", "Field("),
+            guard="orchestrator.scenario.scenario:Angle",
         ),
         case(
             "resources/front.ssv",
@@ -35,7 +33,7 @@ def case(member, old, new, words, name, outcome, *, broken):
             "front: viscosty is no variable of bearing_v3.fmu; did you mean 'viscosity'?",
             "an SSP with a misspelt parameter",
             "exit 2; component, parameter, FMU, the likely spelling",
-            broken=(CONTENTS, 'hint = "" if variable else', 'hint = "" if True else'),
+            guard="orchestrator.ssp.contents:parameters",
         ),
         case(
             "resources/rear.ssv",
@@ -44,7 +42,7 @@ def case(member, old, new, words, name, outcome, *, broken):
             "rear: clearance = 0.22; allowed is a number of at most 0.1 m; did you give mm?",
             "an SSP with a clearance in mm",
             "exit 2; component, value, range, the likely slip",
-            broken=("orchestrator/ssp/scenario.py", "problems += _film_problems(contents)", "pass"),
+            guard="orchestrator.ssp.scenario:as_scenario",
         ),
         case(
             "resources/rear.ssv",
@@ -53,7 +51,7 @@ def case(member, old, new, words, name, outcome, *, broken):
             "rear: speed = 157.1; allowed is that of the rotor, 314.1592653589793 rad/s",
             "an SSP whose bearing turns at another speed than its rotor",
             "exit 2; component, both speeds",
-            broken=("orchestrator/ssp/scenario.py", "if other != speed:", "if False:"),
+            guard="orchestrator.ssp.scenario:_speed_problems",
         ),
     ],
 )

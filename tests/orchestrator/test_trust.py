@@ -22,8 +22,6 @@ from tests.faults import fault
 from tests.orchestrator.foreign import call, with_entry, with_text
 from tests.orchestrator.test_own_bearing import EXAMPLE
 
-OWN, TRUST = "fmus/build/own.py", "orchestrator/fmi/trust.py"
-
 
 @pytest.fixture(scope="module")
 def spring(tmp_path_factory):
@@ -59,7 +57,7 @@ def nothing_runs(monkeypatch):
     "archive",
     "an FMU of somebody else, without terminal and without `--trust`",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/commands/run.py", "require_trust(own_bearings(scenario)", "require_trust({}"),
+    guard="orchestrator.commands.run:carry_out_request",
 )
 def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_path, nothing_runs):
     arguments = ("run", short, "--depth-at", f"rear={spring}", "--fmus", small_fmus, "--out", tmp_path / "o")
@@ -71,7 +69,7 @@ def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_p
     "archive",
     "an FMU of somebody else in an investigation of the linearised train",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/linear/case.py", "require_trust(own_bearings(self.scenario)", "require_trust({}"),
+    guard="orchestrator.linear.case:LinearCase.operating_point",
 )
 def test_linear_commands_ask_as_well(spring, short, small_fmus, tmp_path, nothing_runs):
     short.write_text(short.read_text() + f'[depth_at]\nrear = "{spring}"\n')
@@ -82,11 +80,7 @@ def test_linear_commands_ask_as_well(spring, short, small_fmus, tmp_path, nothin
     "archive",
     "an export that would run an FMU of somebody else to find the start",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    broken=(
-        "orchestrator/commands/export_ssp.py",
-        "require_trust(own_bearings(scenario)",
-        "require_trust({}",
-    ),
+    guard="orchestrator.commands.export_ssp:export_scenario",
 )
 def test_an_export_asks_as_well(spring, short, small_fmus, tmp_path, nothing_runs):
     short.write_text(short.read_text() + f'[depth_at]\nrear = "{spring}"\n')
@@ -106,7 +100,7 @@ def foreign_ssp(ssp, bearing, target):
     "archive",
     "an SSP in which an FMU has our name and GUID, but other code",
     "exit 2; archive, FMU in it, `native code`, `--trust`; nothing of it runs",
-    broken=("orchestrator/commands/run_ssp.py", "require_trust(prepared.fmus", "require_trust({}"),
+    guard="orchestrator.commands.run_ssp:run_ssp",
 )
 def test_an_ssp_with_doctored_code(small_ssp, small_fmus, tmp_path, nothing_runs):
     script = next(
@@ -137,7 +131,7 @@ def test_our_own_ssp_runs_without_a_question(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with a file added, such as another library",
     "it counts as foreign: `--trust`",
-    broken=(OWN, "and sizes == {name: len(text) for name, text in content.items()}", ""),
+    guard="fmus.build.own:_same",
 )
 def test_added_code_is_foreign(small_fmus, tmp_path):
     bearing = small_fmus / "bearing_v3.fmu"
@@ -149,7 +143,7 @@ def test_added_code_is_foreign(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with one byte of its code changed",
     "it counts as foreign: `--trust`",
-    broken=(OWN, "and all(archive.read(name) == text for name, text in content.items())", ""),
+    guard="fmus.build.own:_same",
 )
 def test_changed_code_is_foreign(small_fmus, tmp_path):
     names = ZipFile(small_fmus / "rotor_small.fmu").namelist()
@@ -179,7 +173,7 @@ def test_the_build_folder_is_trusted(spring, tmp_path):
     "archive",
     "a link in the build folder to an FMU elsewhere",
     "it counts as foreign: `--trust`",
-    broken=(TRUST, "path.resolve().is_relative_to", "path.absolute().is_relative_to"),
+    guard="orchestrator.fmi.trust:require_trust",
 )
 def test_a_link_out_of_the_build_folder(spring, tmp_path):
     (tmp_path / "fmus").mkdir()
@@ -192,7 +186,7 @@ def test_a_link_out_of_the_build_folder(spring, tmp_path):
     "archive",
     "an FMU of somebody else, on a terminal where the user says no",
     "exit 2 after the question; file, `native code`",
-    broken=(TRUST, "sys.stdin.isatty() and typer.confirm(question, err=True)", "sys.stdin.isatty()"),
+    guard="orchestrator.fmi.trust:_agrees",
 )
 def test_the_question_on_a_terminal(spring, monkeypatch):
     asked = []
@@ -209,7 +203,7 @@ def test_the_question_on_a_terminal(spring, monkeypatch):
     "archive",
     "an FMU that is exchanged between a trusted run and its resumption",
     "exit 2; file, `native code`, `--trust`; unchanged, it runs without a question",
-    broken=(TRUST, "digest in known", "known"),
+    guard="orchestrator.fmi.trust:require_trust",
 )
 def test_a_resumed_run_knows_what_was_trusted(spring, short, small_fmus, tmp_path, monkeypatch):
     mine, out = tmp_path / "mine.fmu", tmp_path / "o"

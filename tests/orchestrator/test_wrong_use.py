@@ -7,68 +7,66 @@ from orchestrator import exit_status
 from orchestrator.cli.main import app
 from tests.faults import fault
 
-ERRORS = "orchestrator/cli/wrong_use.py"
 
-
-def case(arguments, words, name, outcome, *, broken):
-    mark = fault("input", name, outcome, broken=broken)
+def case(arguments, words, name, outcome, *, guard):
+    mark = fault("input", name, outcome, guard=guard)
     return pytest.param(arguments.split(), words, id=name, marks=mark)
 
 
-PARSED = (ERRORS, "            return kind(given)\n", "            return list(kind)[0]\n")
 CASES = [
     case(
         "run --depth v4", "--depth v4: allowed are v1, v2, v3",
-        "--depth v4", "exit 2; one line: option, value, all depths", broken=PARSED,
+        "--depth v4", "exit 2; one line: option, value, all depths",
+        guard="orchestrator.cli.wrong_use:one_of",
     ),
     case(
         "run --coupling linear-implict",
         "--coupling linear-implict: did you mean 'linear-implicit'? allowed are",
         "--coupling misspelt", "exit 2; one line: option, value, the likely spelling, all couplings",
-        broken=("orchestrator/cli/main.py", 'parser=one_of(Coupling, "--coupling"),', ""),
+        guard="orchestrator.cli.main:run",
     ),
     case(
         "run --reduction isr", "--reduction isr: did you mean 'irs'? allowed are irs, irs-plain, guyan",
         "--reduction misspelt", "exit 2; one line: option, value, the likely spelling, all reductions",
-        broken=("orchestrator/cli/main.py", 'parser=one_of(Reduction, "--reduction"),', ""),
+        guard="orchestrator.cli.main:run",
     ),
     case(
         "campbell --depth V2", "--depth V2: did you mean 'v2'? allowed are v1, v2, v3",
         "--depth V2 of a linear analysis", "exit 2; one line: option, value, the likely spelling",
-        broken=("orchestrator/cli/linear.py", 'parser=one_of(Depth, "--depth"),', ""),
+        guard="orchestrator.cli.linear:FilmDepth",
     ),
     case(
         "run --depth-at LP2-front=V2",
         "--depth-at LP2-front=V2: not NAME=DEPTH; of depths did you mean 'v2'?",
         "--depth-at with an unknown depth", "exit 2; one line: option, value, the likely one, all depths",
-        broken=("orchestrator/cli/main.py", "(fmu or depth in list(Depth))", "True"),
+        guard="orchestrator.cli.main:_assignments",
     ),
     case(
         "run small --depth-at frnt=v2",
         "small: depth_at.frnt: no such bearing; did you mean 'front'? allowed are front",
         "--depth-at a bearing that the train lacks", "exit 2; one line: the likely name, all bearings",
-        broken=("orchestrator/scenario/file.py", "problems += name_problems(raw, train)", "pass"),
+        guard="orchestrator.scenario.file:_checked",
     ),
     case(
         "run small --bearing frnt",
         "--bearing frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "--bearing that the train lacks", "exit 2; one line: the likely name, all bearings",
-        broken=("orchestrator/commands/run.py", "and request.bearing not in names:", "and False:"),
+        guard="orchestrator.commands.run:check_bearing",
     ),
     case(
         "run --dept v2", "No such option: --dept",
         "a misspelt option", "exit 2; one line: the option, the likely ones",
-        broken=(ERRORS, "except _WRONG_USE as error:", "except KeyError as error:"),
+        guard="orchestrator.cli.wrong_use:Commands.main",
     ),
     case(
         "rn small", "No such command 'rn'. Did you mean 'run'?",
         "a misspelt command", "exit 2; one line: the command, the likely one",
-        broken=("orchestrator/cli/main.py", "    cls=Commands,\n", ""),
+        guard="orchestrator.cli.main:app",
     ),
     case(
         "run small --end soon", "'--end'",
         "a number that is a word", "exit 2; one line: the option",
-        broken=(ERRORS, "            status = INPUT_ERROR\n", "            status = 1\n"),
+        guard="orchestrator.cli.wrong_use:Commands.main",
     ),
 ]  # fmt: skip
 

@@ -60,11 +60,7 @@ def said(error: Exception, *names: str) -> None:
     "input",
     "a scenario damaged anywhere",
     "read, or ScenarioError naming the file and each problem",
-    broken=(
-        "rotor_fmu/train/toml_source.py",
-        "except UnicodeDecodeError as error",
-        "except KeyError as error",
-    ),
+    guard="rotor_fmu.train.toml_source:read_toml",
 )
 @given(st.one_of(lines_of(SCENARIO).map(str.encode), bytes_of(SCENARIO.encode())))
 @settings(max_examples=400)
@@ -84,7 +80,7 @@ def test_damaged_scenario(content):
     "input",
     "train.toml or shaft.csv damaged anywhere",
     "read, or TrainFileError naming the file and each problem",
-    broken=("rotor_fmu/train/file.py", "except (ValueError, OSError) as", "except OSError as"),
+    guard="rotor_fmu.train.file:_read_shaft",
 )
 @given(st.data())
 @settings(max_examples=300)
@@ -125,7 +121,7 @@ TEXTS = ("SystemStructure.ssd", "resources/rotor.ssv", "resources/front.ssv")
     "archive",
     "an SSP with damaged texts",
     "read, or an error naming the SSP; nothing extracted is left",
-    broken=("orchestrator/ssp/reader.py", "except XmlError as error", "except KeyError as error"),
+    guard="orchestrator.ssp.reader:read_ssp",
 )
 @given(st.data())
 @settings(max_examples=60)
@@ -160,7 +156,7 @@ def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
     "archive",
     "an FMU damaged in its description or as an archive",
     "read, or FmuError naming the FMU; nothing extracted is left",
-    broken=("orchestrator/fmi/file.py", "except Exception as", "except KeyError as"),
+    guard="orchestrator.fmi.file:FmuFile.__init__",
 )
 @given(st.data())
 @settings(max_examples=150)
@@ -207,7 +203,7 @@ def interrupted(toy_fmus, tmp_path_factory):
     "process",
     "a checkpoint damaged anywhere",
     "CheckpointError naming the file",
-    broken=("orchestrator/observers/checkpoint.py", "except Exception as error", "except KeyError as error"),
+    guard="orchestrator.observers.checkpoint:read",
 )
 @given(st.data())
 @settings(max_examples=60)

@@ -11,137 +11,135 @@ from tests.rotor_fmu.train_folder import edit, folder, problems
 
 __all__ = ["folder"]
 
-CHECKS, SCHEMA = "rotor_fmu/train/checks.py", "rotor_fmu/train/schema.py"
 
-
-def case(old, new, line, words, name, outcome, *, broken):
-    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, broken=broken))
+def case(old, new, line, words, name, outcome, *, guard):
+    return pytest.param(old, new, line, words, id=name, marks=fault("input", name, outcome, guard=guard))
 
 
 IN_TRAIN = [
     case(
         "z = 0.35", "z = 7.5", 16, "bearing 'front': z = 7.5 is outside the shaft; allowed is 0 to 6",
         "a bearing outside the shaft", "exit 2; file, line, key, value and the length of the shaft",
-        broken=(CHECKS, "if entry.z > shaft.length + POSITION_TOLERANCE:", "if False:"),
+        guard="rotor_fmu.train.checks:_position",
     ),
     case(
         "z = 3.0", "z = 6.5", 54, "wheel 'wheel-2': z = 6.5 is outside the shaft; allowed is 0 to 6",
         "a wheel outside the shaft", "exit 2; file, line, key, value and the length of the shaft",
-        broken=("rotor_fmu/train/file.py", "found += entry_problems(shaft, kind, index, entry)", "pass"),
+        guard="rotor_fmu.train.file:_checked",
     ),
     case(
         "z = 3.0", "z = 3.1", 54, "z = 3.1; allowed are boundaries of shoulders, the nearest 2.35, 3, 3.65",
         "a wheel in the middle of a shoulder", "exit 2; line, value and the nearest boundaries",
-        broken=(CHECKS, "if abs(shaft.z[node] - entry.z) > POSITION_TOLERANCE:", "if False:"),
+        guard="rotor_fmu.train.checks:_position",
     ),
     case(
         "z = 0.35", "z = 0.0", 16, "bearing 'front': z = 0; allowed is between the shaft's ends, 0 and 6",
         "a bearing at the very end of the shaft", "exit 2; line, value, what is allowed",
-        broken=(CHECKS, "if nearest_node(shaft, entry.z) in (0, shaft.nodes - 1):", "if False:"),
+        guard="rotor_fmu.train.checks:_inside",
     ),
     case(
         "diameter = 0.22", "diameter = 0.25", 17,
         "diameter = 0.25; allowed is the shaft's own diameter there, 0.22",
         "a bearing on a journal of another diameter", "exit 2; line, value and the shaft's diameter there",
-        broken=(CHECKS, "if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in around):", "if False:"),
+        guard="rotor_fmu.train.checks:_seat",
     ),
     case(
         "width = 0.11", "width = 0.4", 18,
         "width = 0.4; allowed is at most 0.3: the journal of this diameter reaches from z = 0.2 to 0.5",
         "a bearing wider than its journal", "exit 2; line, value, the room there is and where it lies",
-        broken=(CHECKS, "if entry.width > room", "if False and entry.width > room"),
+        guard="rotor_fmu.train.checks:_seat",
     ),
     case(
         "clearance = 0.00022", "clearance = 0.022", 19,
         "clearance = 0.022; allowed is the radial clearance in m, 1.1e-05 to 0.0011 (1e-4 to 1e-2 of the "
         "radius) for diameter 0.22; did you give mm or the diametral one?",
         "a clearance of the wrong order of magnitude", "exit 2; line, value, range; radial, in m",
-        broken=(CHECKS, "if not low <= entry.clearance <= high:", "if False:"),
+        guard="rotor_fmu.train.checks:_film",
     ),
     case(
         "roughness = 1e-06", "roughness = 5e-05", 22,
         "roughness = 5e-05; allowed is at most a tenth of the clearance, 2.2e-05 m",
         "asperities as high as the film", "exit 2; line, value, a tenth of the clearance",
-        broken=(CHECKS, "elif entry.roughness > 0.1 * entry.clearance:", "elif False:"),
+        guard="rotor_fmu.train.checks:_film",
     ),
     case(
         "roughness = 1e-06", "roughness = 1.0", 22,
         "roughness = 1.0; allowed is a number of at most 0.0001 m; did you give um?",
         "a roughness in um", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, 'positive(1e-4, "m; did you give um?", 3e-6)', 'positive(1e9, "m", 3e-6)'),
+        guard="rotor_fmu.train.schema:BearingEntry.roughness",
     ),
     case(
         "contact_modulus = 1000000000.0", "contact_modulus = 1000.0", 23,
         "contact_modulus = 1000.0; allowed is 0, for no solid contact, or at least 1e+06 Pa; did you "
         "give MPa?",
         "a contact modulus in MPa", "exit 2; line, value, range, the likely slip",
-        broken=(CHECKS, "if 0.0 < entry.contact_modulus < SOFTEST_CONTACT:", "if False:"),
+        guard="rotor_fmu.train.checks:_film",
     ),
     case(
         "viscosity = 0.012", "viscosity = 12.0", 20,
         "viscosity = 12.0; allowed is a number of at most 1 Pa s; did you give mPa s?",
         "a viscosity in mPa s", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, "Field(gt=1e-5, le=1.0,", "Field(gt=1e-5, le=1e5,"),
+        guard="rotor_fmu.train.schema:BearingEntry.viscosity",
     ),
     case(
         "youngs_modulus = 210000000000.0", "youngs_modulus = 210000", 10,
         "youngs_modulus = 210000; allowed is a number greater than 1e+08 Pa; did you give MPa?",
         "a modulus in MPa", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, "Field(gt=1e8, lt=1e13,", "Field(gt=1e3, lt=1e13,"),
+        guard="rotor_fmu.train.schema:MaterialEntry.youngs_modulus",
     ),
     case(
         "density = 7850.0", "density = 7.85", 12,
         "density = 7.85; allowed is a number greater than 100 kg/m3; did you give t/m3?",
         "a density in t/m3", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, "Field(gt=100.0, lt=3e4,", "Field(gt=0.0, lt=3e4,"),
+        guard="rotor_fmu.train.schema:MaterialEntry.density",
     ),
     case(
         "diameter = 0.22", "diameter = 220", 17,
         "diameter = 220; allowed is a number of at most 10 m; did you give mm?",
         "a diameter in mm", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, "    diameter: float = positive(10.0, _LENGTH)", "    diameter: float"),
+        guard="rotor_fmu.train.schema:BearingEntry.diameter",
     ),
     case(
         "unbalance_phase = 0.0", "unbalance_phase = 90", 50,
         "unbalance_phase = 90; allowed is a number of at most 6.3 rad; did you give degrees?",
         "a phase in degrees", "exit 2; line, value, range, the likely slip",
-        broken=(SCHEMA, "within(-6.3, 6.3,", "within(-630, 630,"),
+        guard="rotor_fmu.train.schema:angle",
     ),
     case(
         "balance_grade = 0.0025", "balance_grade = 2.5", 3,
         "balance_grade = 2.5; allowed is a number of at most 0.1 m/s; G2.5 is 2.5e-3",
         "a balance grade in mm/s", "exit 2; line, value, range, what G2.5 is",
-        broken=(SCHEMA, "within(0.0, 0.1,", "within(0.0, 10.0,"),
+        guard="rotor_fmu.train.schema:grade",
     ),
     case(
         "polar_inertia = 303.75", "polar_inertia = 400.0", 46,
         "polar_inertia = 400.0; allowed is at most twice the transverse_inertia, 330, which a thin disc has",
         "moments of inertia that no body has", "exit 2; line, value, the limit of the thin disc",
-        broken=(CHECKS, "if entry.polar_inertia > 2.0", "if False and entry.polar_inertia > 2.0"),
+        guard="rotor_fmu.train.checks:_body",
     ),
     case(
         "z = 5.65", "z = 0.35", 30,
         "bearing 'rear': z = 0.35; allowed is more than that of 'front' before it, 0.35",
         "bearings out of order", "exit 2; line, both names and positions",
-        broken=(CHECKS, "        if second <= first:", "        if False:"),
+        guard="rotor_fmu.train.checks:order_problems",
     ),
     case(
         "viscosity = 0.012", "viscosity = 2e-5", 14,
         "bearing 'front': static load 5.603e+04 N; its film carries at most ",
         "a load that no film carries", "exit 2; bearing, load, what the film carries, Sommerfeld number",
-        broken=(CHECKS, "        elif load > most:", "        elif False:"),
+        guard="rotor_fmu.train.checks:load_problems",
     ),
     case(
         'name = "wheel-2"', 'name = "wheel-1"', 53,
         "wheel: name = 'wheel-1' occurs twice; allowed are unique names",
         "two wheels of one name", "exit 2; line of the second, the name",
-        broken=(CHECKS, "if isinstance(name, str) and name in seen:", "if False:"),
+        guard="rotor_fmu.train.checks:names_twice",
     ),
     case(
         "clearance =", "clearence =", 19,
         "clearence: unknown key; did you mean 'clearance'? allowed are name, z,",
         "a misspelt key of a train", "exit 2; line, the likely spelling, all keys",
-        broken=("rotor_fmu/train/wording.py", "if close else \"\"", "if False else \"\""),
+        guard="rotor_fmu.train.wording:likely",
     ),
 ]  # fmt: skip
 
@@ -159,30 +157,30 @@ IN_TABLE = [
         "0.2,0.24,0.0,steel", "0.2,0.24,0.24,steel", 3,
         "inner_diameter = 0.24; allowed is less than outer_diameter, 0.24",
         "a shoulder whose bore is as wide as itself", "exit 2; file, row, both diameters",
-        broken=(SCHEMA, "if self.inner_diameter >= self.outer_diameter:", "if False:"),
+        guard="rotor_fmu.train.schema:ShoulderRow._is_hollow_at_most",
     ),
     case(
         "0.25,0.28,0.0,steel", "0.0,0.28,0.0,steel", 7,
         "length = '0.0'; allowed is a number greater than 0 m",
         "a shoulder without length", "exit 2; file, row, key, value, range",
-        broken=(SCHEMA, "Field(default, gt=0.0, le=high", "Field(default, ge=0.0, le=high"),
+        guard="rotor_fmu.train.schema:positive",
     ),
     case(
         "0.25,0.28,0.0,steel", "250,0.28,0.0,steel", 7,
         "length = '250'; allowed is a number of at most 20 m; did you give mm?",
         "a shoulder in mm", "exit 2; file, row, value, range, the likely slip",
-        broken=(SCHEMA, "length: float = positive(20.0, _LENGTH)", "length: float = positive(2e4, _LENGTH)"),
+        guard="rotor_fmu.train.schema:ShoulderRow.length",
     ),
     case(
         "0.25,0.28,0.0,steel", "0.25,0.28,0.0,stel", 7,
         "material = 'stel'; did you mean 'steel'? allowed are steel",
         "an unknown material", "exit 2; file, row, the likely spelling, all materials",
-        broken=("rotor_fmu/train/file.py", "if row.material not in materials:", "if False:"),
+        guard="rotor_fmu.train.file:_unknown_materials",
     ),
     case(
         "0.25,0.28,0.0,steel", "0.25;0.28;0.0;steel", 7, "1 values; allowed are 4",
         "a table with the wrong separator in a row", "exit 2; file, row, how many values it has",
-        broken=("rotor_fmu/train/file.py", "row {number}: {len(cells)} values", "{len(cells)} values"),
+        guard="rotor_fmu.train.file:_read_shaft",
     ),
 ]  # fmt: skip
 
@@ -197,7 +195,7 @@ def test_a_fault_in_the_table(folder, old, new, row, words):
     "input",
     "two bearings that overlap",
     "exit 2; line, both names, how far apart they must be",
-    broken=(CHECKS, "if apart < (needed := 0.5 * (before.width + after.width)):", "if False:"),
+    guard="rotor_fmu.train.checks:order_problems",
 )
 def test_bearings_that_overlap(folder):
     """Two bearings on one journal, each within its room, but in one another."""
@@ -216,7 +214,7 @@ def test_bearings_that_overlap(folder):
     "input",
     "a bearing from which the shaft lifts off",
     "exit 2; bearing, its static load, what to check",
-    broken=(CHECKS, "        if load <= 0.0:", "        if False:"),
+    guard="rotor_fmu.train.checks:load_problems",
 )
 def test_a_shaft_that_lifts_off(folder):
     """Both bearings at the front half of a shaft whose wheels hang at the rear."""
@@ -230,7 +228,7 @@ def test_a_shaft_that_lifts_off(folder):
     "input",
     "several faults in both files of a train",
     "exit 2; all of them at once, each with its line or row",
-    broken=("rotor_fmu/train/file.py", "continue  # said with the whole file", "return"),
+    guard="rotor_fmu.train.file:_sound",
 )
 def test_all_faults_of_both_files_at_once(folder):
     """What is wrong by itself does not hide what does not fit on the shaft."""
