@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
+from bearing_fmu.contact.cubic_spline import interpolate, spline_coefficients
 from bearing_fmu.parameters import BearingParameters
 
 Floats = NDArray[np.float64]
@@ -97,9 +97,9 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     quadrature = 2.0 * half * np.tile(0.5 * weight / pieces, pieces)
     reduced = (clearance - e[:, None] * np.cos(psi)) / sigma
     table = np.arange(float(reduced.min()) - 0.02, REACH + 0.02, 0.01)
-    pressure = parameters.contact_modulus * CubicSpline(table, asperity_integral(2.5, table))(reduced)
+    pressure = parameters.contact_modulus * interpolate(table, asperity_integral(2.5, table), reduced)
     arc = parameters.radius * pressure * quadrature
     values = np.stack(((arc * np.cos(psi)).sum(axis=1), arc.sum(axis=1)), axis=1)
-    spline = CubicSpline(np.arange(e.size), values - values[0], bc_type=((1, np.zeros(2)), "not-a-knot"))
-    coefficients = np.moveaxis(spline.c[::-1], 0, -1)
+    splines = spline_coefficients(np.arange(e.size, dtype=np.float64), values - values[0], first_slope=0.0)
+    coefficients = np.moveaxis(splines, 0, -1)
     return SliceTable(float(first), float(step), np.ascontiguousarray(coefficients))
