@@ -13,15 +13,22 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from fmus.unit import loader
 from fmus.build.describe import page
 from fmus.build.description import Identity, model_description
-from fmus.port import with_starts
 from fmus.build.sources import package_folder, source_files
+from fmus.port import with_starts
 from fmus.port.variable import Value, Variable
+from fmus.unit import loader
 
 _NAMESPACE = uuid.UUID("6f0d3f5e-6a5b-5d0c-9d3f-2f6a1c0b7e11")
-_BUILDERS = ("build/description.py", "build/memoryless.py", "build/describe.py", "build/recipe.py", "build/sources.py", "unit/loader.py")
+_BUILDERS = (
+    "build/description.py",
+    "build/memoryless.py",
+    "build/describe.py",
+    "build/recipe.py",
+    "build/sources.py",
+    "unit/loader.py",
+)
 
 _ENTRY = '''"""Entry of the FMU {name}; pythonfmu runs it for each instance."""
 

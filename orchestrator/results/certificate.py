@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from orchestrator.scenario.scenario import Scenario
     from orchestrator.results.summary import RunSummary
+    from orchestrator.scenario.scenario import Scenario
 
 CERTIFIED = ("force_mean", "force_max", "moment_max", "least_gap_min", "amplitude_max", "stress_max")
 """Quantities whose largest changes the summary's text and the record name; the JSON holds all."""

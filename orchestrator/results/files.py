@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 
 from orchestrator.errors import NotWrittenError
 from orchestrator.results.figures.write import write_figures
-from orchestrator.results.record_files import write_record
 from orchestrator.results.folder import FIGURES, PARTIAL, RUN_FILES, free_room, result_folder
-from orchestrator.scenario.file import scenario_toml
+from orchestrator.results.record_files import write_record
 from orchestrator.results.summary_table import to_text
+from orchestrator.scenario.file import scenario_toml
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from orchestrator.results.result import Result
-    from orchestrator.scenario.scenario import Scenario
     from orchestrator.results.summary import RunSummary
+    from orchestrator.scenario.scenario import Scenario
     from rotor_fmu.train.train import Train
 
 NO_FIGURES = "The figures are not written; record and summary are complete.\n"

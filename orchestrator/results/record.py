@@ -16,12 +16,12 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
-from orchestrator.master.start.equilibrium import Start
 from orchestrator.exit_status import of_outcome
-from orchestrator.outcome import Outcome
+from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
-from orchestrator.scenario.scenario import Scenario
+from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import scenario_toml
+from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]

@@ -9,10 +9,10 @@ from time import perf_counter
 
 import xarray as xr
 
+from orchestrator.fmi.watchdog import Watchdog
+from orchestrator.master.stepping import StepCounts
 from orchestrator.observers.checkpoint import Checkpoint, Checkpoints
 from orchestrator.outcome import Outcome
-from orchestrator.master.stepping import StepCounts
-from orchestrator.fmi.watchdog import Watchdog
 
 
 class Stage(StrEnum):

@@ -26,9 +26,9 @@ from orchestrator.results.statistics import (
 from orchestrator.results.windows import Phase, fracture_time, phases
 
 if TYPE_CHECKING:
-    from orchestrator.results.certificate import Certificate
     from orchestrator.case.simulate import Result, Timing
     from orchestrator.master.stepping import StepCounts
+    from orchestrator.results.certificate import Certificate
 
 UNITS = {
     "force": "N",

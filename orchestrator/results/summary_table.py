@@ -11,9 +11,9 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
 
+from orchestrator.outcome import Outcome
 from orchestrator.results.certificate import CERTIFIED, Certificate
 from orchestrator.results.ledger import LedgerSummary
-from orchestrator.outcome import Outcome
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.results.summary import RunSummary

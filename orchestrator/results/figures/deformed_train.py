@@ -10,7 +10,13 @@ from matplotlib.patheffects import withStroke
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import style
-from orchestrator.results.figures.deformation import Scales, dynamic_deflection, nice, scales_of, worst_instant
+from orchestrator.results.figures.deformation import (
+    Scales,
+    dynamic_deflection,
+    nice,
+    scales_of,
+    worst_instant,
+)
 from orchestrator.results.figures.shaft_outline import draw_shaft, draw_wheels
 from orchestrator.results.figures.spread import spread
 

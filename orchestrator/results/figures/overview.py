@@ -7,11 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator.results import quantities
-
-from orchestrator.results import statistics
-from orchestrator.results.figures import panels
-from orchestrator.results.figures import style
+from orchestrator.results import quantities, statistics
+from orchestrator.results.figures import panels, style
 from orchestrator.results.figures.least_gap import draw_contact, gap_ceiling
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from orchestrator.results import quantities
-from orchestrator.results.figures import panels
-from orchestrator.results.figures import style
+from orchestrator.results.figures import panels, style
 from orchestrator.results.statistics import time_mean
 from orchestrator.results.windows import phases
 

@@ -1,0 +1,1 @@
+"""What a run leaves: record, statistics, summary, certificate, figures, folder."""
