@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -123,7 +122,7 @@ class RotorSlave(UnitSlave):
             self.values[self.layout.block(port.ENERGY[0], port.ENERGY[-1])] = self._rotor.energy()
             return
         if group == "work":
-            work = self._rotor.work() if self._value("track_work") else math.nan
+            work = self._rotor.work() if self._value("track_work") else 0.0
             self.values[self.layout.block(port.WORK[0], port.WORK[-1])] = work
             return
         fields, nodes = self._rotor.fields(), self._train.nodes

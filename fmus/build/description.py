@@ -79,7 +79,7 @@ def model_description(
         root,
         "CoSimulation",
         modelIdentifier=identity.name,
-        needsExecutionTool="true",
+        needsExecutionTool="false",  # the model is inside; tools that insist refuse true, see the README
         canHandleVariableCommunicationStepSize="true",
         canNotUseMemoryManagementFunctions="true",
         canGetAndSetFMUstate="true",
@@ -115,7 +115,7 @@ def _text(value: Value) -> str:
 
 
 def _scalar_variable(variable: Variable, reference: int) -> Element:
-    computed = variable.causality in ("output", "calculatedParameter")
+    computed = variable.causality in ("output", "calculatedParameter", "local")
     element = Element(
         "ScalarVariable",
         name=variable.name,

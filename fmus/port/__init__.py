@@ -44,6 +44,7 @@ from fmus.port.connector import (
     kinematics,
     law,
 )
+from fmus.port.start import ORBIT_FOLLOWS, START_PARTS, shape_follows, start_names
 from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability, Variable
 
 __all__ = [
@@ -91,31 +92,6 @@ BEARING_INPUTS: tuple[Variable, ...] = (
 )
 _ON_STATE = tuple(v.name for v in BEARING_INPUTS)
 
-BEARING_OUTPUTS: tuple[Variable, ...] = (
-    *(
-        Variable(name, "output", unit, f"wrench on the rotor: {text}", nominal=1e6, depends_on=_ON_STATE)
-        for name, unit, text in zip(FORCE, WRENCH_UNITS, WRENCH_TEXT, strict=True)
-    ),
-    *law("output", depends_on=_ON_STATE),
-    *(
-        Variable(name, "output", unit, text, minimum=minimum, nominal=nominal, depends_on=_ON_STATE)
-        for name, unit, text, minimum, nominal in (
-            ("h_min", "m", "least gap over the whole film; negative: asperities flattened", None, 1e-4),
-            ("h_min_centre", "m", "least gap on the centre line of the bearing", None, 1e-4),
-            ("h_min_z", "m", "axial position of the least gap, from the mid-plane", None, 1e-1),
-            ("p_max", "Pa", "largest film pressure", 0.0, 1e7),
-            ("contact_force", "N", "integral of the solid contact pressure", 0.0, 1e6),
-            ("contact.Fx", "N", "part of the wrench from solid contact: force in x", None, 1e6),
-            ("contact.Fy", "N", "part of the wrench from solid contact: force in y", None, 1e6),
-            ("contact.Mx", "N.m", "part of the wrench from solid contact: moment about x", None, 1e6),
-            ("contact.My", "N.m", "part of the wrench from solid contact: moment about y", None, 1e6),
-            ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
-            ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
-            ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
-        )
-    ),
-)
-
 _OFFSET_TEXT = "bearing centre in the fixed frame: "
 
 BEARING_PARAMETERS: tuple[Variable, ...] = (
@@ -144,6 +120,34 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         )
     ),
 )
+
+_AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
+
+_OUTPUTS: tuple[Variable, ...] = (
+    *(
+        Variable(name, "output", unit, f"wrench on the rotor: {text}", nominal=1e6, depends_on=_ON_STATE)
+        for name, unit, text in zip(FORCE, WRENCH_UNITS, WRENCH_TEXT, strict=True)
+    ),
+    *law("output", depends_on=_ON_STATE),
+    *(
+        Variable(name, "output", unit, text, minimum=minimum, nominal=nominal, depends_on=_ON_STATE)
+        for name, unit, text, minimum, nominal in (
+            ("h_min", "m", "least gap over the whole film; negative: asperities flattened", None, 1e-4),
+            ("h_min_centre", "m", "least gap on the centre line of the bearing", None, 1e-4),
+            ("h_min_z", "m", "axial position of the least gap, from the mid-plane", None, 1e-1),
+            ("p_max", "Pa", "largest film pressure", 0.0, 1e7),
+            ("contact_force", "N", "integral of the solid contact pressure", 0.0, 1e6),
+            ("contact.Fx", "N", "part of the wrench from solid contact: force in x", None, 1e6),
+            ("contact.Fy", "N", "part of the wrench from solid contact: force in y", None, 1e6),
+            ("contact.Mx", "N.m", "part of the wrench from solid contact: moment about x", None, 1e6),
+            ("contact.My", "N.m", "part of the wrench from solid contact: moment about y", None, 1e6),
+            ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
+            ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
+            ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
+        )
+    ),
+)
+BEARING_OUTPUTS = tuple(replace(v, starts_on=_AT_START) for v in _OUTPUTS)
 
 BEARING: tuple[Variable, ...] = BEARING_INPUTS + BEARING_OUTPUTS + BEARING_PARAMETERS
 """The unit of every bearing depth, in the order of its value references."""
@@ -184,11 +188,6 @@ _SUMMARY = (
     ("stress.max", "Pa", "largest normal stress from bending, both planes combined", 1e7),
     ("stress.max_z", "m", "axial position of the largest normal stress", 10.0),
 )
-_START_PARTS = (
-    ("", "static"),
-    ("_cos", "1X orbit, part with cos(speed t):"),
-    ("_sin", "1X orbit, part with sin(speed t):"),
-)
 _WHEEL = (
     ("unbalance", "kg.m", "nominal unbalance"),
     ("unbalance_phase", "rad", "angle of the nominal unbalance at t = 0"),
@@ -209,10 +208,8 @@ def _position(name: str, owner: str) -> Variable:
 
 def _rotor_journal(i: int, owner: str) -> Iterator[Variable]:
     """Yield the outputs at bearing `i`; initially they follow the start parameters."""
-    common = (SPEED, "start.from_law", "start.orbit")
     for index, v in enumerate(kinematics(f"bearing[{i}].journal", f"{owner}, journal", "output")):
-        own = tuple(f"bearing[{i}].start.{POSITION[index % 4]}{part}" for part, _ in _START_PARTS)
-        yield replace(v, starts_on=common + own)
+        yield replace(v, starts_on=ORBIT_FOLLOWS + start_names(i, POSITION[index % 4]))
 
 
 def rotor(
@@ -236,7 +233,8 @@ def rotor(
     -------
     tuple of Variable
         In the order of the value references: inputs, outputs on which a step
-        depends, parameters, and last the fields over the nodes.
+        depends, parameters, and last the fields over the nodes.  These are local
+        variables: to look at, not to connect.
 
     Notes
     -----
@@ -252,12 +250,14 @@ def rotor(
             variables.append(replace(v, description=f"{name}: {v.description}"))
     for i, name in enumerate(bearings, 1):
         variables.extend(_rotor_journal(i, name))
+    shape = shape_follows(len(bearings), len(wheels))
     for name, unit, text, nominal in _SUMMARY:
-        variables.append(Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes"))
-    variables.extend(BALANCE)
+        summary = Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes")
+        variables.append(replace(summary, starts_on=shape))
+    variables.extend(replace(v, starts_on=() if v.name in WORK else shape) for v in BALANCE)
     variables.extend(_ROTOR_PARAMETERS)
     for i, name in enumerate(bearings, 1):
-        for part, text in _START_PARTS:
+        for part, text in START_PARTS:
             for pos, unit in zip(POSITION, KINEMATIC_UNITS[:4], strict=True):
                 described = f"{name}: journal at the start, {text} {pos}"
                 start_name = f"bearing[{i}].start.{pos}{part}"
@@ -278,7 +278,7 @@ def rotor(
     for key, unit, text, minimum, nominal in _FIELDS:
         for k in range(1, nodes + 1):
             described = f"shaft node {k}: {text}"
-            field = Variable(f"node[{k}].{key}", "output", unit, described, minimum=minimum, nominal=nominal)
+            field = Variable(f"node[{k}].{key}", "local", unit, described, minimum=minimum, nominal=nominal)
             variables.append(replace(field, lazy="fields"))
     return with_starts(variables, starts or {})
 

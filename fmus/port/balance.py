@@ -11,9 +11,9 @@ _TEXTS = (
     "kinetic energy of the vibration, rotation left out",
     "strain energy of the shaft",
     "potential in gravity, 0 in the undeformed shaft",
-    "work of the bearings on the shaft since the start; NaN unless track_work",
-    "work of the unbalance on the shaft since the start; NaN unless track_work",
-    "energy lost in the shaft's damping since the start; NaN unless track_work",
+    "work of the bearings on the shaft since the start; 0 unless track_work",
+    "work of the unbalance on the shaft since the start; 0 unless track_work",
+    "energy lost in the shaft's damping since the start; 0 unless track_work",
 )
 
 BALANCE = tuple(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Causality = Literal["input", "output", "parameter", "calculatedParameter"]
+Causality = Literal["input", "output", "parameter", "calculatedParameter", "local"]
 Kind = Literal["Real", "Integer", "Boolean", "String"]
 Variability = Literal["continuous", "discrete", "fixed", "tunable"]
 Value = float | int | bool | str
@@ -33,7 +33,7 @@ class Variable:
         Names of the inputs an output depends on directly.
     starts_on : tuple of str or None
         Names of the inputs and parameters on which the initial value of an output
-        or a calculated parameter depends; None: possibly on all of them.
+        or a calculated parameter depends; None: on all of them.
     kind : str
         FMI type.
     lazy : str

@@ -18,10 +18,11 @@ NAMESPACES = {
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
     "osp": "http://opensimulationplatform.com/SSP/OSPAnnotations",
+    "oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
     "bladeloss": "urn:bladeloss:run",
 }
-OSP, RUN = "com.opensimulationplatform", "bladeloss.run"
-"""Types of the annotations: macro step as libcosim reads it, settings of the orchestrator."""
+OSP, OMS, RUN = "com.opensimulationplatform", "org.openmodelica", "bladeloss.run"
+"""Types of the annotations: macro step as libcosim and OMSimulator read it, settings of the orchestrator."""
 
 _LISTS = ("Connectors", "Connections", "Units", "Parameters", "Annotations")
 
@@ -50,7 +51,7 @@ def _definition(structure: Structure) -> bytes:
     root = Element(
         "ssd:SystemStructureDescription",
         {
-            **_names("ssc", "ssd", "osp", "bladeloss"),
+            **_names("ssc", "ssd", "osp", "oms", "bladeloss"),
             "version": "1.0",
             "name": structure.name,
             "description": structure.title,
@@ -70,6 +71,8 @@ def _definition(structure: Structure) -> bytes:
             endElement=c.target,
             endConnector=c.input,
         )
+    if structure.step is not None:
+        _master(system, structure.step)
     _units(root, "ssd:Units", (k.unit for c in structure.components for k in c.connectors))
     experiment = SubElement(root, "ssd:DefaultExperiment", startTime="0.0")
     if structure.end is not None:
@@ -89,6 +92,20 @@ def _definition(structure: Structure) -> bytes:
     given = {key: str(value) for key, value in settings.items() if value is not None}
     SubElement(own, "bladeloss:Run", given)
     return _text(root)
+
+
+def _master(system: Element, step: float) -> None:
+    """Append the master of weak coupling that OMSimulator asks for: a system without one it cannot add."""
+    annotation = SubElement(SubElement(system, "ssd:Annotations"), "ssc:Annotation", type=OMS)
+    information = SubElement(SubElement(annotation, "oms:Annotations"), "oms:SimulationInformation")
+    SubElement(
+        information,
+        "oms:FixedStepMaster",
+        description="oms-ma",
+        stepSize=repr(step),
+        absoluteTolerance="0.0001",
+        relativeTolerance="0.0001",
+    )
 
 
 def _component(component: Component) -> Element:
