@@ -45,8 +45,12 @@ def kernel(function: _Function) -> _Function:
 
 
 def inner_kernel(function: _Function) -> _Function:
-    """Compile `function` for use in other kernels only, which compiles faster."""
-    return _compile(function, {"no_cpython_wrapper": True, "no_cfunc_wrapper": True})
+    """Compile `function` for use in other kernels only, which compiles faster.
+
+    It is always inlined: a kernel that was compiled beside it in this process, and one that comes from
+    the cache, then run the same code, and give the same numbers to the bit.
+    """
+    return _compile(function, {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True})
 
 
 def stage(function: _Function) -> _Function:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gap
 from bearing_fmu.films.short.flooded import SMALL, flooded
 from bearing_fmu.films.tilted.workspace import DAMPING, PEAK, SHEAR, STIFFNESS
-from bearing_fmu.kernels.compiled import inner_kernel, kernel
+from bearing_fmu.kernels.compiled import inner_kernel
 
 Floats = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ _angles = 2.0 * np.pi / _SAMPLES * np.arange(_SAMPLES)
 _COS, _SIN = np.cos(_angles), np.sin(_angles)
 
 
-@kernel
+@inner_kernel
 def capone(x: float, y: float, a: float, b: float, force: Floats, slope: Floats) -> None:
     """Force of the half film and its derivatives.
 
@@ -78,7 +78,7 @@ def capone(x: float, y: float, a: float, b: float, force: Floats, slope: Floats)
         slope[1, k] = -(part_y + force[1] * dr) / rest
 
 
-@kernel
+@inner_kernel
 def largest_pressure(x: float, y: float, a: float, b: float) -> float:
     """Largest value of (a cos(phi) - b sin(phi)) / H^3 around the circumference.
 
