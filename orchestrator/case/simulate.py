@@ -16,12 +16,12 @@ from orchestrator.fmi.unit import UnitError
 from orchestrator.master.assembly import assemble
 from orchestrator.master.coupling import SCHEMES, make_scheme
 from orchestrator.master.journal_in_words import with_state
+from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start, begin, find_start
 from orchestrator.master.start.journal_position import evaluate
-from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import Course, run
-from orchestrator.observers.checkpoint import Keeper
+from orchestrator.observers.checkpoint import Keeper, Saver
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
@@ -153,10 +153,8 @@ def carry_out(
     system.set_scale(float(loads.mean()), [seat.width for seat in train.bearings])
     ledger = Ledger(system) if scenario.ledger else None
     keepers: dict[str, Keeper] = {"record": recorder, **({} if ledger is None else {"ledger": ledger})}
-
-    def save(step: int, time: float, stepper: Stepper, last: bool) -> None:
-        if checkpoints is not None:
-            checkpoints.save((step, time), system, stepper, keepers, start, last=last)
+    observers: list[Observer] = [recorder, *([] if ledger is None else [ledger])]
+    observers += [] if checkpoints is None else [Saver(checkpoints, system, start, keepers)]
 
     def on_time(time: float) -> None:
         watchdog.beat(time)
@@ -175,12 +173,10 @@ def carry_out(
     end = run(
         system,
         make_scheme(scenario.coupling, scenario.tolerance),
-        recorder,
+        observers,
         course,
         on_time=on_time,
-        save=save,
         resume=None if resume is None else lambda stepper: resume.restore_run(stepper, keepers),
-        ledger=ledger,
     )
     (rotor, rotor_exchange), (film, film_exchange) = (
         (group.step_time - earlier[0], group.exchange_time - earlier[1])
@@ -217,8 +213,8 @@ def failed_start(
 def _course(scenario: Scenario) -> Course:
     """Steps end on the fracture where they are controlled; else the rotor takes it inside a step, exactly."""
     controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
-    event = scenario.event.time if controlled and scenario.event is not None else None
-    return Course(scenario.end, scenario.step, scenario.tolerance, event)
+    events = (scenario.event.time,) if controlled and scenario.event is not None else ()
+    return Course(scenario.end, scenario.step, scenario.tolerance, events)
 
 
 def _warm_up(system: System, train: Train) -> None:

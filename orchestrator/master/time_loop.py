@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
 from orchestrator.errors import Terminated
 from orchestrator.fmi.unit import UnitError
 from orchestrator.master.coupling import Advance, Coupling
+from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import NotFinite, StepCounts, StepFailure, Stepper
 from orchestrator.master.system import System
-from orchestrator.observers.ledger import Ledger
-from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
 
 _WHOLE = 1e-9
@@ -38,14 +37,14 @@ class Course:
         End time and macro step in s. The last step is shortened to end on the end time exactly.
     tolerance : float or None
         Largest relative defect of a step, see `Stepper`.
-    event : float or None
-        Instant on which a step ends besides, in s.
+    events : tuple of float
+        Instants on which a step ends besides, in s, ascending.
     """
 
     end: float
     step: float
     tolerance: float | None = None
-    event: float | None = None
+    events: tuple[float, ...] = ()
 
     @property
     def steps(self) -> int:
@@ -57,17 +56,18 @@ class Course:
         return self.end if k >= self.steps else k * self.step
 
     def parts(self, k: int) -> Iterator[tuple[float, float, float]]:
-        """Yield start, end and length of macro step k, from 1 on; two parts where the event falls inside."""
-        start, event = (k - 1) * self.step, self.event
+        """Yield start, end and length of macro step k, from 1 on, parted at the events inside."""
+        start = (k - 1) * self.step
         # An even step is passed as given, bit by bit, so that units can keep what depends on it.
         whole = k < self.steps or abs(self.end - k * self.step) <= _WHOLE * self.step
         length = self.step if whole else self.end - start
         margin = _WHOLE * self.step
-        if event is not None and start + margin < event < start + length - margin:
-            yield start, event, event - start
-            yield event, self.instant(k), start + length - event
-        else:
-            yield start, self.instant(k), length
+        at, last = start, start + length
+        for event in self.events:
+            if at + margin < event < last - margin:
+                yield at, event, event - at
+                at = event
+        yield at, self.instant(k), length if at == start else last - at
 
 
 @dataclass(frozen=True)
@@ -99,20 +99,13 @@ class RunEnd:
     record_time: float
 
 
-Save = Callable[[int, float, Stepper, bool], None]
-"""Called with number and end of each macro step that was carried out, 0 for the start, the stepper, and
-whether it is the last call."""
-
-
 def run(
     system: System,
     scheme: Coupling,
-    recorder: Recorder,
+    observers: Sequence[Observer],
     course: Course,
     *,
     on_time: Callable[[float], None],
-    ledger: Ledger | None = None,
-    save: Save | None = None,
     resume: Callable[[Stepper], int] | None = None,
 ) -> RunEnd:
     """Carry an initialized system to the end time.
@@ -123,18 +116,14 @@ def run(
         Out of Initialization Mode, outputs fetched.
     scheme : Coupling
         How it is carried over a macro step.
-    recorder : Recorder
-        Sees the start and every step.
+    observers : sequence of Observer
+        See the run, in this order; where it stops in reverse, so that what saves the others comes last.
     course : Course
         The macro steps.
     on_time : callable
         Called with the simulated time after each macro step.
-    ledger : Ledger, optional
-        Sees the start and every step, too.
-    save : callable, optional
-        See `Save`.
     resume : callable, optional
-        Puts a run back where it was saved, and returns the number of the macro step.
+        Puts a run back where it was saved, observers included, and returns the number of the macro step.
 
     Returns
     -------
@@ -149,38 +138,34 @@ def run(
         nonlocal time, recording
         watched = perf_counter()
         time = end
-        recorder.watch(end, advance.defect)
-        if ledger is not None:
-            ledger.watch(end - start)
+        for observer in observers:
+            observer.watch(start, end, advance.defect)
         recording += perf_counter() - watched
+
+    def stop(step: int | None) -> None:
+        for observer in reversed(observers):
+            observer.stop(step, time, stepper)
 
     stepper = Stepper(system, scheme, course.tolerance, on_step)
     try:
-        first = 0
         if resume is not None:
             first = resume(stepper)
         else:
-            recorder.watch(0.0)
-            recorder.record(0, 0.0)
-            if ledger is not None:
-                ledger.begin()
-            if save is not None:
-                save(0, 0.0, stepper, False)
+            first = 0
+            for observer in observers:
+                observer.begin(stepper)
         time = course.instant(first)
         for k in range(first + 1, course.steps + 1):
-            for start, stop, length in course.parts(k):
-                stepper.cross(start, stop, length)
+            for start, end, length in course.parts(k):
+                stepper.cross(start, end, length)
             watched = perf_counter()
-            recorder.record(k, time)
-            if save is not None:
-                save(k, time, stepper, False)
+            for observer in observers:
+                observer.record(k, time, stepper)
             recording += perf_counter() - watched
             try:
                 on_time(time)
             except KeyboardInterrupt:  # between two steps: the run can go on from here, and be recorded
-                if save is not None:
-                    save(k, time, stepper, True)
-                recorder.close(time)
+                stop(k)
                 raise
     except StepFailure as error:
         outcome = Outcome.NOT_FINITE if isinstance(error, NotFinite) else Outcome.TOLERANCE_MISSED
@@ -192,5 +177,5 @@ def run(
         outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
         message = f"at t = {time:.9g} s"
     if outcome in _LEAVES_UNITS_USABLE:
-        recorder.close(time)
+        stop(None)
     return RunEnd(outcome, message, unit, time, stepper.counts, perf_counter() - begin, recording)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.master.stepping import StepCounts, Stepper
 from orchestrator.master.system import System
@@ -172,6 +173,39 @@ class Checkpoints:
                 raise CheckpointError(f"{path}: cannot be written: {error}") from None
             self.warn(f"{path}: no checkpoint at t = {time:.6g} s, the one before stays: {error}")
         self._last = time
+
+
+@dataclass(frozen=True)
+class Saver(Observer):
+    """Writes the checkpoints of a run.
+
+    Attributes
+    ----------
+    checkpoints : Checkpoints
+        Where, and how often.
+    system, start : System, Start
+        What runs, and how it started.
+    keepers : mapping
+        What else watches the run, by name.
+    """
+
+    checkpoints: Checkpoints
+    system: System
+    start: Start
+    keepers: Mapping[str, Keeper]
+
+    def begin(self, stepper: Stepper) -> None:
+        """Write the first."""
+        self.record(0, 0.0, stepper)
+
+    def record(self, step: int, time: float, stepper: Stepper) -> None:
+        """Write one if it is due."""
+        self.checkpoints.save((step, time), self.system, stepper, self.keepers, self.start)
+
+    def stop(self, step: int | None, time: float, stepper: Stepper) -> None:
+        """Write the last, behind a macro step."""
+        if step is not None:
+            self.checkpoints.save((step, time), self.system, stepper, self.keepers, self.start, last=True)
 
 
 def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:

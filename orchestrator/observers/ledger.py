@@ -28,6 +28,8 @@ from numpy.typing import NDArray
 
 from fmus import port
 from orchestrator.fmi.unit import Block
+from orchestrator.master.observer import Observer
+from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 
 Array = NDArray[np.float64]
@@ -80,7 +82,7 @@ class Balance:
         return self.gap / self.exchanged if self.exchanged > 0.0 else 0.0
 
 
-class Ledger:
+class Ledger(Observer):
     """Keeps the ledger of a run, step by step.
 
     Parameters
@@ -97,15 +99,15 @@ class Ledger:
         self._block = Block(system.rotor, (*port.ENERGY, *port.WORK), self._rotor)
         self._first = np.zeros_like(self._rotor)
 
-    def begin(self) -> None:
+    def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
         self._before = self._values()
         self._block.get()
         self._first[:] = self._rotor
 
-    def watch(self, step: float) -> None:
-        """Enter an accepted step of this length."""
-        before, now = self._before, self._values()
+    def watch(self, start: float, end: float, defect: Array) -> None:
+        """Enter an accepted step."""
+        before, now, step = self._before, self._values(), end - start
         moved, turned = now[0][:, :4] - before[0][:, :4], now[0][:, 4:] - before[0][:, 4:]
 
         def work(first: Array, last: Array) -> Array:

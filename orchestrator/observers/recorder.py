@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.fmi.unit import Block
+from orchestrator.master.observer import Observer
+from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 
 Array = NDArray[np.float64]
@@ -22,8 +24,13 @@ Array = NDArray[np.float64]
 EXTREMES = ("force_magnitude", "moment_magnitude", "least_gap", "centre_line_gap", "contact_force", "defect")
 """Quantities whose extremes are kept; the gaps' least, the others' largest."""
 
-_SIGN = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])
-_WATCHED = [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force")]
+_FORCE, _MOMENT, _DEFECT = (
+    EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect")
+)
+_SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("contact_force") + 1)
+_OUTPUTS = [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force")]
+"""Bearing outputs of which the extremes in `_SCALARS` are taken."""
+_SIGN = np.array([-1.0 if name.endswith("gap") else 1.0 for name in EXTREMES])
 _KEPT = [index for name, index in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))]
 KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 """Bearing outputs in the record: all but the affine law."""
@@ -33,13 +40,13 @@ FIELDS = ("x", "y", "amplitude", "stress")
 _KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields")
 
 
-class Recorder:
+class Recorder(Observer):
     """Records of a run.
 
     Parameters
     ----------
     system : System
-        Watched after each of its macro steps.
+        Watched after each of its steps.
     nodes : int
         Nodes of the shaft.
     steps : int
@@ -74,31 +81,40 @@ class Recorder:
         names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
         self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
 
-    def watch(self, time: float, defect: Array | None = None) -> None:
-        """Note the extremes of the system as it stands at `time` after a step, or at the start."""
-        now, responses = self._now, self._system.responses
-        np.hypot(responses[:, 0], responses[:, 1], out=now[:, 0])
-        np.hypot(responses[:, 2], responses[:, 3], out=now[:, 1])
-        np.multiply(responses[:, _WATCHED], _SIGN[2:5], out=now[:, 2:5])
+    def begin(self, stepper: Stepper) -> None:
+        """Keep the start."""
+        self._note(0.0, None)
+        self.record(0, 0.0, stepper)
+
+    def watch(self, start: float, end: float, defect: Array) -> None:
+        """Note the extremes of the system as it stands after a step."""
+        self._note(end, defect)
+
+    def record(self, step: int, time: float, stepper: Stepper) -> None:
+        """Keep a record if one is due."""
+        if step % self._stride == 0 or step == self._steps:
+            self._keep(time)
+
+    def stop(self, step: int | None, time: float, stepper: Stepper) -> None:
+        """Keep a record of where the run stopped, unless there is one."""
+        if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
+            self._keep(time)
+
+    def _note(self, time: float, defect: Array | None) -> None:
+        now, system = self._now, self._system
+        forces = system.forces
+        np.hypot(forces[:, 0], forces[:, 1], out=now[:, _FORCE])
+        np.hypot(forces[:, 2], forces[:, 3], out=now[:, _MOMENT])
+        np.multiply(system.responses[:, _OUTPUTS], _SIGN[_SCALARS], out=now[:, _SCALARS])
         if defect is None:
-            now[:, 5] = 0.0
+            now[:, _DEFECT] = 0.0
         else:
-            np.hypot(defect[:, 0], defect[:, 1], out=now[:, 5])
+            np.hypot(defect[:, 0], defect[:, 1], out=now[:, _DEFECT])
         np.maximum(self._since, now, out=self._since)
         higher = now > self._peaks
         if higher.any():
             self._peaks[higher] = now[higher]
             self.peak_times[higher] = time
-
-    def record(self, step: int, time: float) -> None:
-        """Keep a record at `time`, the end of macro step `step`, if one is due; 0 for the start."""
-        if step % self._stride == 0 or step == self._steps:
-            self._keep(time)
-
-    def close(self, time: float) -> None:
-        """Keep a record of where a run stopped before its time, unless there is one."""
-        if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
-            self._keep(time)
 
     def _keep(self, time: float) -> None:
         k = self.size

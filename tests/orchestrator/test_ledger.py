@@ -6,6 +6,7 @@ import pytest
 from fmus.build.builder import build
 from orchestrator.case.simulate import simulate
 from orchestrator.master.coupling import LinearImplicit
+from orchestrator.master.stepping import Stepper
 from orchestrator.observers.ledger import Ledger
 from orchestrator.outcome import Outcome
 from orchestrator.results.summary import summarise
@@ -32,10 +33,10 @@ def test_the_work_of_a_spring_is_what_its_potential_loses(store, toy_fmus):
     """Without damping W = k/2 (q0^2 - q1^2); a linear law leaves the coupling nothing to create."""
     system = released(store, toy_fmus, stiffness=1e6, damping=0.0)
     ledger = Ledger(system)
-    ledger.begin()
+    stepper = Stepper(system, LinearImplicit(), None, lambda start, end, a: ledger.watch(start, end, a.defect))
+    ledger.begin(stepper)
     for k in range(40):
-        LinearImplicit().advance(system, k * 2e-4, 2e-4)
-        ledger.watch(2e-4)
+        stepper.cross(k * 2e-4, (k + 1) * 2e-4, 2e-4)
     balance = ledger.balance()
     lost = 0.5e6 * (DISPLACEMENT**2 - system.journals[0, 0] ** 2)
     assert balance.bearings[0, 0] == pytest.approx(lost, rel=5e-5)  # the journal's path as a cubic

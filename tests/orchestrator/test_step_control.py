@@ -182,13 +182,16 @@ def test_controlled_steps_end_on_the_fracture_and_records_stay_regular(fmus, tmp
 
 
 def test_a_macro_step_is_parted_at_an_event_inside():
-    course = Course(0.01, 1e-3, event=2.25e-3)
+    course = Course(0.01, 1e-3, events=(2.25e-3,))
     assert list(course.parts(3)) == [
         (2e-3, 2.25e-3, pytest.approx(2.5e-4)),
         (2.25e-3, 3e-3, pytest.approx(7.5e-4)),
     ]
     assert list(course.parts(2)) == [(1e-3, 2e-3, 1e-3)]
-    assert list(Course(0.01, 1e-3, event=2e-3).parts(3)) == [(2e-3, 3e-3, 1e-3)]
+    assert list(Course(0.01, 1e-3, events=(2e-3,)).parts(3)) == [(2e-3, 3e-3, 1e-3)]
+    several = Course(0.01, 1e-3, events=(2.25e-3, 2.5e-3, 2.5e-3, 2.75e-3, 3e-3))
+    assert [start for start, _, _ in several.parts(3)] == [2e-3, 2.25e-3, 2.5e-3, 2.75e-3]
+    assert sum(length for _, _, length in several.parts(3)) == pytest.approx(1e-3)
     assert list(Course(2.5e-3, 1e-3).parts(3)) == [(2e-3, 2.5e-3, pytest.approx(5e-4))]
 
 
