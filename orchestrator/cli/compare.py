@@ -7,13 +7,16 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator.cli.options import Budget, FigureFormats, Format, guarded
+from orchestrator.cli.options import Budget, Depth, FigureFormats, Format, guarded
+from orchestrator.cli.wrong_use import one_of
 
 COMPARE_HELP = (
-    "Run a scenario with V1, V2 and V3 and hold the results against the paper.\n\n"
-    "The runs go side by side, a process each. Left are the paper's Figures 5 to 9 with all depths, the "
-    "table of 14 rows (paper, here, verdict, and the reason for what is missed), what an engineer would have "
-    "concluded from each depth, and the folders of the runs (v1, v2, v3).\n\n"
+    "Run a scenario at several depths and hold the results beside one another.\n\n"
+    "The runs go side by side, each as a [bold]bladeloss run[/bold] of its own. Left are the figures with "
+    "all depths, the table of forces, gaps, contact, amplitude and stress with their differences, what an "
+    "engineer would have concluded from each depth, and the folders of the runs (v1, v2, v3). The bundled "
+    "scenario is held against the paper's study: 14 rows (paper, here, verdict, and the reason for what is "
+    "missed).\n\n"
     "[bold]--check[/bold] repeats everything with twice the film resolution and half the macro step and "
     "tells what changes."
 )
@@ -39,6 +42,14 @@ def compare(
     scenario: Annotated[
         str, typer.Argument(help="A bundled scenario (see [bold]bladeloss info[/bold]) or a TOML file.")
     ] = "paper",
+    depth: Annotated[
+        list[Depth] | None,
+        typer.Option(
+            metavar="DEPTH",
+            parser=one_of(Depth, "--depth"),
+            help="To be compared; repeatable, by default all.",
+        ),
+    ] = None,
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
     step: Annotated[float | None, typer.Option(metavar="SECONDS", help="Macro step.")] = None,
     columns: Annotated[
@@ -76,7 +87,8 @@ def compare(
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
         overrides = {key: value for key, value in given.items() if value is not None}
-        request = CompareRequest(scenario, overrides, out, fmus, jobs, check, formats, budget)
+        depths = tuple(map(str, depth or Depth))
+        request = CompareRequest(scenario, overrides, out, fmus, depths, jobs, check, formats, budget)
         return run(request, Console(), Console(stderr=True))
 
     guarded(work)

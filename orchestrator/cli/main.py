@@ -256,3 +256,7 @@ def main() -> None:
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     sys.exit(app())
+
+
+if __name__ == "__main__":
+    main()

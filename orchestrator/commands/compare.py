@@ -1,4 +1,4 @@
-"""``bladeloss compare``: one scenario at every depth, against the paper's figures and table."""
+"""``bladeloss compare``: one scenario at several depths, beside one another or against the paper."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rich.console import Console
 
@@ -15,7 +15,6 @@ from orchestrator.errors import NotWrittenError
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.watchdog import BUDGET
 from orchestrator.outcome import Outcome
-from orchestrator.results.certificate import at_half_step
 from orchestrator.results.files import add_figures, data_then_figures, room_for
 from orchestrator.results.folder import (
     FIGURES,
@@ -26,29 +25,20 @@ from orchestrator.results.folder import (
     temporary_prefix,
 )
 from orchestrator.results.folder_lock import claim
-from orchestrator.results.record_files import RECORD_FILE, read_record
-from orchestrator.results.statistics import analysed_bearing
-from orchestrator.scenario.file import load_scenario, train_of, with_overrides
+from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.problems import record_size
 from orchestrator.scenario.scenario import DEPTHS
-from orchestrator.study.paper.processes import DIED, cores, run_all
-from orchestrator.study.paper.progress import show_runs
-from orchestrator.study.paper.report import Comparison, Settings, compare, to_csv, to_json
-from orchestrator.study.paper.runs import gather
-from orchestrator.study.paper.table import ComparisonTable, to_text
-from orchestrator.study.paper.worker import Ended, Task, Work, simulate_task
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from orchestrator.scenario.scenario import Scenario
-    from rotor_fmu.train.train import Train
+from orchestrator.study.children import COMMAND
+from orchestrator.study.compare import COMPARED, Means, refine, run_depths
+from orchestrator.study.comparison import settings_of
+from orchestrator.study.paper.report import PaperReport, speaks_of
+from orchestrator.study.report import Report
 
 CHECK = "check"
 """Folder of the runs at the finer resolution."""
 SIGN = "comparison.json"
 """File by which an earlier comparison is known."""
-_OURS = ("comparison.txt", SIGN, "comparison.csv", *DEPTHS, CHECK, FIGURES, PARTIAL)
+_OURS = ("comparison.txt", SIGN, "comparison.csv", COMPARED, *DEPTHS, CHECK, FIGURES, PARTIAL)
 
 
 @dataclass(frozen=True)
@@ -65,6 +55,8 @@ class CompareRequest:
         Folder of the results; None: ``results/<scenario>-compare``.
     fmus : Path
         Folder of the FMUs.
+    depths : sequence of str
+        To be compared.
     jobs : int or None
         Runs at the same time; None: one a core.
     check : bool
@@ -79,22 +71,17 @@ class CompareRequest:
     overrides: Mapping[str, Any] = field(default_factory=dict)
     out: Path | None = None
     fmus: Path = Path("fmus")
+    depths: Sequence[str] = DEPTHS
     jobs: int | None = None
     check: bool = False
     formats: Sequence[str] = ("png",)
     budget: float = BUDGET
 
 
-@dataclass(frozen=True)
-class _Compared:
-    """A comparison and the records it was made from, the finished and the partial ones."""
-
-    comparison: Comparison
-    records: Sequence[xr.Dataset]
-
-
-def run(request: CompareRequest, console: Console, errors: Console, *, work: Work = simulate_task) -> int:
-    """Run a scenario at every depth, write figures, table and conclusions, say what came out.
+def run(
+    request: CompareRequest, console: Console, errors: Console, *, command: Sequence[str] = COMMAND
+) -> int:
+    """Run a scenario at several depths, write figures, tables and conclusions, say what came out.
 
     Parameters
     ----------
@@ -102,8 +89,8 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
         What to compare.
     console, errors : rich.console.Console
         For output and for what went wrong.
-    work : callable
-        What the process of a run does, see `orchestrator.study.paper.worker`.
+    command : sequence of str
+        What runs a scenario in a process of its own.
 
     Returns
     -------
@@ -118,28 +105,48 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
     refined = refine(scenario) if request.check else None
-    train = train_of(scenario)
+    train, depths = train_of(scenario), [depth for depth in DEPTHS if depth in request.depths]
     folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
     check_folder(folder, SIGN)
-    check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(DEPTHS))
-    ensure_fmus(request.fmus, train, set(DEPTHS), console)
-    prefix, place = temporary_prefix(folder), folder.parent
-    with claim(folder), tempfile.TemporaryDirectory(prefix=prefix, dir=place) as temporary:
-        runs = Path(temporary)
-        found = _compare(scenario, train, request, runs, console, work)
+    check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(depths))
+    ensure_fmus(request.fmus, train, depths, console)
+    means = Means(request.fmus, request.jobs, request.budget, command)
+    with (
+        claim(folder),
+        tempfile.TemporaryDirectory(prefix=temporary_prefix(folder), dir=folder.parent) as made,
+    ):
+        runs = Path(made)
+        found, records = run_depths(scenario, train, depths, runs, means, console)
         fine = None
-        if refined is not None and found.comparison.complete:
-            console.print(f"Check with {_settings(refined).text()}", highlight=False)
-            fine = _compare(refined, train, request, runs / CHECK, console, work)
-        pair = found.comparison, fine.comparison if fine else None
-        console.print(ComparisonTable(*pair))
-        failed = [(name, end) for one in pair if one for name, end in one.ended.items() if not end.ok]
-        status = status_of(failed[0][1]) if failed else 0
+        if refined is not None and found.complete:
+            console.print(f"Check with {settings_of(refined).text()}", highlight=False)
+            fine, _ = run_depths(refined, train, depths, runs / CHECK, means, console)
+        report = (PaperReport if speaks_of(scenario, depths) else Report)(found, fine)
+        console.print(report)
+        failed = [item for one in (found, fine) if one for item in one.ended.items() if not item[1].ok]
+        status = failed[0][1].status if failed else 0
         target = partial_folder(folder) if failed else folder
-        if found.records:
+
+        def draw() -> None:
+            add_figures(records, target, train, found.seat.name, request.formats)
+
+        def write(fresh: Path) -> None:
+            for name, text in (
+                ("txt", report.to_text()),
+                ("csv", report.to_csv()),
+                ("json", report.to_json()),
+            ):
+                (fresh / f"comparison.{name}").write_text(text, encoding="utf-8")
+            if failed:
+                reasons = (f"{name} {end.text()}\n{end.advice}\n" for name, end in failed)
+                (fresh / PARTIAL).write_text("".join(reasons), encoding="utf-8")
+            for path in runs.glob("[!.]*"):
+                path.rename(fresh / path.name)
+
+        if records:
             try:
-                with room_for(found.records, target):
-                    _write_all(pair, found.records, runs, target, train, request.formats)
+                with room_for(records, target):
+                    data_then_figures(target, write, draw if request.formats else None, _OURS)
             except NotWrittenError as error:
                 status = exit_status.of_outcome(Outcome.NOT_WRITTEN)
                 errors.print(f"[red]error:[/red] {error}", highlight=False, soft_wrap=True)
@@ -149,81 +156,3 @@ def run(request: CompareRequest, console: Console, errors: Console, *, work: Wor
     for name, end in failed:
         errors.print(f"[red]error:[/red] {name} not finished: {end.text()}", highlight=False, soft_wrap=True)
     return status
-
-
-def refine(scenario: Scenario) -> Scenario:
-    """The scenario with twice the film resolution and half the macro step."""
-    film = {"columns": 2 * scenario.film.columns, "rows": 2 * scenario.film.rows}
-    return with_overrides(at_half_step(scenario), {"film": film})
-
-
-def status_of(end: Ended) -> int:
-    """Exit status of a run that has ended."""
-    if end.outcome == DIED:
-        return exit_status.PROCESS_DIED
-    return exit_status.of_outcome(next(outcome for outcome in Outcome if outcome.value == end.outcome))
-
-
-def _settings(scenario: Scenario) -> Settings:
-    return Settings(scenario.step, scenario.film.columns, scenario.film.rows, scenario.end)
-
-
-def _compare(
-    scenario: Scenario, train: Train, request: CompareRequest, folder: Path, console: Console, work: Work
-) -> _Compared:
-    tasks = [
-        Task(
-            depth,
-            with_overrides(scenario, {"depth": depth}),
-            request.fmus.absolute(),
-            folder / depth,
-            request.budget,
-        )
-        for depth in DEPTHS
-    ]
-    with show_runs(DEPTHS, scenario.end, console) as show:
-        ended = run_all(tasks, min(request.jobs or cores(), len(tasks)), show, work=work)
-    records = {
-        task.name: read_record(task.folder) if (task.folder / RECORD_FILE).is_file() else None
-        for task in tasks
-    }
-    left = [record for record in records.values() if record is not None]
-    unfinished = {depth: "" if end.ok else end.text() for depth, end in ended.items()}
-    bearing = scenario.analysed_bearing or (analysed_bearing(left[0]) if left else train.bearings[0].name)
-    runs = gather(records, unfinished, bearing, scenario, train)
-    return _Compared(compare(scenario.title or scenario.train, _settings(scenario), runs, ended), left)
-
-
-def _write_all(
-    pair: tuple[Comparison, Comparison | None],
-    records: Sequence[xr.Dataset],
-    runs: Path,
-    folder: Path,
-    train: Train,
-    formats: Sequence[str],
-) -> None:
-    """Write data and figures of the comparison."""
-
-    def draw() -> None:
-        add_figures(records, folder, train, pair[0].runs.seat.name, formats)
-
-    data_then_figures(folder, lambda fresh: _write(pair, runs, fresh), draw if formats else None, _OURS)
-
-
-def _write(pair: tuple[Comparison, Comparison | None], runs: Path, fresh: Path) -> None:
-    """Fill the folder of the results; the folders of the runs move there."""
-    comparison, fine = pair
-    (fresh / "comparison.txt").write_text(to_text(comparison, fine), encoding="utf-8")
-    (fresh / "comparison.csv").write_text(to_csv(comparison, fine), encoding="utf-8")
-    (fresh / SIGN).write_text(to_json(comparison, fine), encoding="utf-8")
-    failed = [
-        f"{name} {end.text()}\n{end.advice}\n"
-        for one in pair
-        if one is not None
-        for name, end in one.ended.items()
-        if not end.ok
-    ]
-    if failed:
-        (fresh / PARTIAL).write_text("".join(failed), encoding="utf-8")
-    for path in runs.iterdir():
-        path.rename(fresh / path.name)

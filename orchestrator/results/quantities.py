@@ -57,3 +57,13 @@ MOMENT = Quantity("bearing moment", "MN m", 1e-6, ".2f")
 GAP = Quantity("least gap", "µm", 1e6, ".1f")
 AMPLITUDE = Quantity("vibration amplitude", "mm", 1e3, ".3f")
 STRESS = Quantity("normal stress", "N/mm²", 1e-6, ".1f")
+SOMMERFELD = Quantity("Sommerfeld number", "", 1.0, ".2f")
+RATIO = Quantity("ratio", "", 1.0, ".3g")
+SHARE = Quantity("share", "%", 100.0, ".2g")
+
+
+def shown(value: float, quantity: Quantity) -> str:
+    """A value in the unit that suits its size."""
+    if value == 0.0:
+        return f"0 {quantity.unit}".strip()
+    return quantity.fitting(value).fitting(value).text(value).strip()

@@ -136,15 +136,15 @@ class RunSummary:
         """Machine-readable form; a value that does not exist is null."""
         data: dict[str, Any] = {"units": UNITS, **asdict(self)}
         data["timing"]["loop"] = self.timing.loop
-        return json.dumps(_finite(data), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+        return json.dumps(without_infinities(data), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _finite(value: Any) -> Any:
+def without_infinities(value: Any) -> Any:
     """The same with None in place of what is not finite, which JSON cannot say."""
     if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
+        return {key: without_infinities(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
+        return [without_infinities(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

@@ -1,190 +1,173 @@
-"""A comparison as data: rows, conclusions, how the runs went; as JSON and CSV."""
+"""A comparison held against the paper: the table of fourteen rows, what is missed and why."""
 
 from __future__ import annotations
 
-import csv
-import json
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
-from io import StringIO
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import asdict
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
-from orchestrator.study.paper.conclusions import Conclusion, conclude
-from orchestrator.study.paper.criterion import Criterion, Row, Verdict
+from rich import box
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from orchestrator.scenario.file import load_scenario
+from orchestrator.study.comparison import Comparison
+from orchestrator.study.conclusions import Limits
+from orchestrator.study.paper.published import DEPTHS, STRESS_LIMIT
+from orchestrator.study.paper.requirement import Requirement, Row, Verdict
 from orchestrator.study.paper.rows import rows
-from orchestrator.study.paper.runs import Runs
-from orchestrator.study.paper.worker import Ended
+from orchestrator.study.report import Report, section
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from orchestrator.scenario.scenario import Scenario
+
+SCENARIO = "paper"
+"""The bundled scenario whose train was fitted to the paper's figures; no other is expected to meet them."""
+_FREE = (
+    "title",
+    "end",
+    "step",
+    "tolerance",
+    "ledger",
+    "coupling",
+    "reduction",
+    "film",
+    "record",
+    "depth",
+    "folder",
+)
+"""What may differ from it: how, and how long, it is computed."""
+_STYLES = {Verdict.MET: "green", Verdict.MISSED: "red", Verdict.NOT_EVALUATED: "yellow"}
 
 
-@dataclass(frozen=True)
-class Settings:
-    """Numerical settings of the runs.
-
-    Attributes
-    ----------
-    macro_step : float
-        [s].
-    columns, film_rows : int
-        Resolution of the films.
-    end : float
-        End time [s].
-    """
-
-    macro_step: float
-    columns: int
-    film_rows: int
-    end: float
-
-    def text(self) -> str:
-        """In a few words."""
-        return f"film {self.columns} x {self.film_rows}, macro step {self.macro_step * 1e3:.3g} ms"
+def speaks_of(scenario: Scenario, depths: Collection[str]) -> bool:
+    """Whether the paper speaks of a scenario at these depths: its train, unbalance, blade and bearing."""
+    own = load_scenario(SCENARIO)
+    same = scenario.model_copy(update={name: getattr(own, name) for name in _FREE}) == own
+    return same and set(DEPTHS) <= set(depths)
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """One scenario at every depth against the paper.
+class PaperReport(Report):
+    """See `Report`."""
 
-    Attributes
-    ----------
-    title : str
-        Of the scenario.
-    settings : Settings
-        Numerical settings.
-    runs : Runs
-        The observations.
-    ended : mapping
-        How each run ended, by depth.
-    rows : tuple of Row
-        The table.
-    conclusions : tuple of Conclusion
-        One a depth.
-    """
-
-    title: str
-    settings: Settings
-    runs: Runs
-    ended: Mapping[str, Ended]
-    rows: tuple[Row, ...]
-    conclusions: tuple[Conclusion, ...]
+    beside = "against the paper"
 
     @property
-    def complete(self) -> bool:
-        """Whether every run finished."""
-        return all(end.ok for end in self.ended.values())
+    def limits(self) -> Limits:
+        """What the conclusions are drawn against."""
+        return Limits.of(self.found.seat, STRESS_LIMIT)
 
-    def count(self, verdict: Verdict) -> int:
-        """Number of rows with a verdict."""
-        return sum(row.verdict is verdict for row in self.rows)
+    @cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """The table."""
+        return rows(self.found)
+
+    def findings(self) -> Iterator[RenderableType]:
+        """The table, the number of rows met, and what is missed."""
+        table = _table("quantity", "paper", "here")
+        table.add_column("verdict", no_wrap=True)
+        for row in self.rows:
+            verdict = Text(row.verdict.value, style=_STYLES[row.verdict])
+            texts = (row.quantity, row.paper, row.obstacle or row.here)
+            table.add_row(str(row.number), *map(Text, texts), verdict)
+        yield table
+        counts = {verdict: sum(row.verdict is verdict for row in self.rows) for verdict in Verdict}
+        words = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+        yield Text(f"{words} of {len(self.rows)} rows", style="bold")
+        yield from section("Missed", self._misses())
+
+    def changes(self, fine: Comparison) -> RenderableType:
+        """What the finer resolution changes, row by row."""
+        table = _table("here", "refined", "largest change")
+        table.add_column("verdict", ratio=2)
+        flips = []
+        for row, other in self._pairs(fine):
+            change, label = largest_change(row, other)
+            size = "-" if math.isnan(change) else f"{100 * change:+.2g} % ({label})"
+            verdict = Text("unchanged", style="green")
+            if other.verdict is not row.verdict:
+                flips.append(str(row.number))
+                verdict = Text(f"{row.verdict} -> {other.verdict}", style="bold red")
+            texts = (row.obstacle or row.here, other.obstacle or other.here, size)
+            table.add_row(str(row.number), *map(Text, texts), verdict)
+        outcome = f"The verdict changes in rows {', '.join(flips)}." if flips else "No verdict changes."
+        return Group(table, Text(outcome, style="bold red" if flips else "bold green"))
+
+    def notes(self) -> Iterator[RenderableType]:
+        """How each row is computed, and where the paper speaks of it."""
+        grid = Table.grid(padding=(0, 1))
+        grid.add_column(justify="right")
+        grid.add_column()
+        for row in self.rows:
+            grid.add_row(Text(str(row.number)), Text(f"{row.definition} (paper: {row.source})"))
+        yield from section("Definitions", [grid])
+
+    def data(self, found: Comparison) -> dict[str, Any]:
+        """The table for JSON."""
+        return {
+            "rows": [
+                {**asdict(row), "verdict": row.verdict.value, "missed_by": row.missed_by}
+                | {"requirements": [{**asdict(item), "met": item.met} for item in row.requirements]}
+                for row in rows(found)
+            ]
+        }
+
+    def change_data(self, fine: Comparison) -> list[dict[str, Any]]:
+        """What the finer resolution changes, for JSON."""
+        found = [(row, other, *largest_change(row, other)) for row, other in self._pairs(fine)]
+        return [
+            {"row": row.number, "largest": change, "of": label}
+            | {"verdict_changes": other.verdict is not row.verdict}
+            for row, other, change, label in found
+        ]
+
+    def lines(self) -> Iterator[list[str]]:
+        """Lines of the CSV."""
+        heading = ["row", "quantity", "paper", "here", "verdict", "missed by", "reason"]
+        more = [] if self.fine is None else [f"here ({self.fine.settings.text()})", "verdict there"]
+        yield heading + more
+        for row, other in self._pairs(self.fine or self.found):
+            line = [str(row.number), row.quantity, row.paper, row.here, row.verdict.value]
+            line += [row.missed_by, row.reason or row.obstacle]
+            yield line + ([] if self.fine is None else [other.here, other.verdict.value])
+
+    def _pairs(self, fine: Comparison) -> Iterator[tuple[Row, Row]]:
+        return zip(self.rows, rows(fine), strict=True)
+
+    def _misses(self) -> Iterator[Text]:
+        missed = [row for row in self.rows if row.verdict is Verdict.MISSED]
+        for row in missed:
+            yield Text(f"{row.number:2d}  {row.missed_by}")
+        reasons: dict[str, list[str]] = {}
+        for row in missed:
+            reasons.setdefault(row.reason, []).append(str(row.number))
+        for reason, numbers in reasons.items():
+            yield Text(f"Reason, row{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}: {reason}.")
 
 
-def compare(title: str, settings: Settings, runs: Runs, ended: Mapping[str, Ended]) -> Comparison:
-    """Evaluate the table and the conclusions."""
-    return Comparison(title, settings, runs, ended, rows(runs), conclude(runs))
-
-
-@dataclass(frozen=True)
-class Change:
-    """What a finer resolution changes in one row.
-
-    Attributes
-    ----------
-    row : Row
-        The row at the finer resolution.
-    verdict_before : Verdict
-        Its verdict at the resolution of the comparison.
-    largest : float
-        Largest relative change of a criterion's value; not a number when none can be compared.
-    label : str
-        Of that criterion.
-    """
-
-    row: Row
-    verdict_before: Verdict
-    largest: float
-    label: str
-
-    @property
-    def flips(self) -> bool:
-        """Whether the verdict changes."""
-        return self.row.verdict is not self.verdict_before
-
-
-def changes(coarse: Comparison, fine: Comparison) -> tuple[Change, ...]:
-    """Changes from one comparison to a finer one, row by row."""
-    return tuple(_change(row, other) for row, other in zip(coarse.rows, fine.rows, strict=True))
-
-
-def _change(row: Row, fine: Row) -> Change:
-    pairs = list(zip(row.criteria, fine.criteria, strict=False))
+def largest_change(row: Row, fine: Row) -> tuple[float, str]:
+    """Largest relative change of a value from a row to a finer one, and of which; nan if there is none."""
+    pairs = zip(row.requirements, fine.requirements, strict=False)
     shares = [(_relative(one, two), one.label) for one, two in pairs]
     found = [item for item in shares if math.isfinite(item[0])]
-    largest, label = max(found, key=lambda item: abs(item[0]), default=(math.nan, ""))
-    return Change(fine, row.verdict, largest, label)
+    return max(found, key=lambda item: abs(item[0]), default=(math.nan, ""))
 
 
-def _relative(one: Criterion, two: Criterion) -> float:
+def _relative(one: Requirement, two: Requirement) -> float:
     """Change as a share of the value; of the bound where the value itself is next to nothing against it."""
-    bounds = [abs(bound) for bound in (one.low, one.high) if math.isfinite(bound)]
-    scale = max(abs(one.value), *bounds) if bounds else abs(one.value)
+    scale = max((abs(x) for x in (one.value, one.low, one.high) if math.isfinite(x)), default=math.nan)
     return (two.value - one.value) / scale if scale > 0 else 0.0 if two.value == one.value else math.nan
 
 
-def to_json(comparison: Comparison, fine: Comparison | None) -> str:
-    """Machine-readable form, SI units; a value that does not exist is null."""
-    data = _data(comparison)
-    if fine is not None:
-        data["check"] = _data(fine)
-        data["check"]["changes"] = [
-            {"row": item.row.number, "largest": item.largest, "of": item.label, "verdict_changes": item.flips}
-            for item in changes(comparison, fine)
-        ]
-    return json.dumps(_finite(data), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
-
-
-def _data(comparison: Comparison) -> dict[str, Any]:
-    runs = comparison.runs
-    return {
-        "title": comparison.title,
-        "train": runs.train,
-        "analysed_bearing": runs.seat.name,
-        "complete": comparison.complete,
-        "settings": asdict(comparison.settings),
-        "runs": {depth: asdict(end) for depth, end in comparison.ended.items()},
-        "rows": [
-            {**asdict(row), "verdict": row.verdict.value, "missed_by": row.missed_by}
-            | {"criteria": [{**asdict(item), "met": item.met} for item in row.criteria]}
-            for row in comparison.rows
-        ],
-        "conclusions": [{**asdict(item), "sentence": item.sentence()} for item in comparison.conclusions],
-        "observations": {depth: asdict(seen) for depth, seen in runs.observed.items()},
-    }
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _lines(comparison: Comparison, fine: Comparison | None) -> Iterator[list[str]]:
-    heading = ["row", "quantity", "paper", "here", "verdict", "missed by", "reason"]
-    if fine is None:
-        yield heading
-    else:
-        yield [*heading, f"here ({fine.settings.text()})", "verdict there"]
-    for index, row in enumerate(comparison.rows):
-        line = [str(row.number), row.quantity, row.paper, row.here, row.verdict.value]
-        line += [row.missed_by, row.reason or row.obstacle]
-        if fine is not None:
-            line += [fine.rows[index].here, fine.rows[index].verdict.value]
-        yield line
-
-
-def to_csv(comparison: Comparison, fine: Comparison | None) -> str:
-    """The table as CSV."""
-    buffer = StringIO()
-    csv.writer(buffer, lineterminator="\n").writerows(_lines(comparison, fine))
-    return buffer.getvalue()
+def _table(*heads: str) -> Table:
+    """A table with the number of the row, then columns three or four parts wide."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, header_style="bold")
+    table.add_column("#", justify="right", no_wrap=True)
+    for head in heads:
+        table.add_column(head, ratio=4 if head in ("here", "refined") else 3)
+    return table

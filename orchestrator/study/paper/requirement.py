@@ -1,4 +1,4 @@
-"""A criterion: a value that must lie between two bounds; and the verdict over several."""
+"""What a row of the table asks: values that must lie between bounds, and the verdict over them."""
 
 from __future__ import annotations
 
@@ -6,12 +6,8 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from orchestrator.results.quantities import Quantity
-from orchestrator.study.paper.paper import Published
-
-SOMMERFELD = Quantity("Sommerfeld number", "", 1.0, ".2f")
-RATIO = Quantity("ratio", "", 1.0, ".3g")
-SHARE = Quantity("share", "%", 100.0, ".2g")
+from orchestrator.results.quantities import Quantity, shown
+from orchestrator.study.paper.published import Published
 
 
 class Verdict(StrEnum):
@@ -22,15 +18,8 @@ class Verdict(StrEnum):
     NOT_EVALUATED = "not evaluated"
 
 
-def shown(value: float, quantity: Quantity) -> str:
-    """A value in the unit that suits its size."""
-    if value == 0.0:
-        return f"0 {quantity.unit}".strip()
-    return quantity.fitting(value).fitting(value).text(value).strip()
-
-
 @dataclass(frozen=True)
-class Criterion:
+class Requirement:
     """A value with its bounds, SI units.
 
     Attributes
@@ -58,7 +47,7 @@ class Criterion:
     strict: bool = False
 
     @classmethod
-    def near(cls, label: str, value: float, published: Published, quantity: Quantity) -> Criterion:
+    def near(cls, label: str, value: float, published: Published, quantity: Quantity) -> Requirement:
         """As published, within its tolerance."""
         width = published.tolerance * abs(published.value)
         low, high = published.value - width, published.value + width
@@ -67,14 +56,14 @@ class Criterion:
     @classmethod
     def above(
         cls, label: str, value: float, low: float, quantity: Quantity, *, strict: bool = False
-    ) -> Criterion:
+    ) -> Requirement:
         """At least `low`; more than it when `strict`."""
         return cls(label, value, low, math.inf, quantity, strict=strict)
 
     @classmethod
     def below(
         cls, label: str, value: float, high: float, quantity: Quantity, *, strict: bool = False
-    ) -> Criterion:
+    ) -> Requirement:
         """At most `high`; less than it when `strict`."""
         return cls(label, value, -math.inf, high, quantity, strict=strict)
 
@@ -95,7 +84,7 @@ class Criterion:
         return abs(self.value - bound) / scale if scale > 0 else math.inf
 
     def miss(self) -> str:
-        """By how much the criterion is missed, in words; empty when it is met."""
+        """By how much the requirement is missed, in words; empty when it is met."""
         if self.met:
             return ""
         value = shown(self.value, self.quantity)
@@ -125,7 +114,7 @@ class Row:
         How the value is computed and when the row is met.
     source : str
         Where the paper says it.
-    criteria : tuple of Criterion
+    requirements : tuple of Requirement
         The row is met when all are.
     obstacle : str
         Why the row cannot be evaluated; empty when it can.
@@ -139,19 +128,19 @@ class Row:
     here: str
     definition: str
     source: str
-    criteria: tuple[Criterion, ...] = ()
+    requirements: tuple[Requirement, ...] = ()
     obstacle: str = ""
     reason: str = ""
 
     @property
     def verdict(self) -> Verdict:
-        """Computed from the criteria, never given."""
-        if self.obstacle or not self.criteria:
+        """Computed from the requirements, never given."""
+        if self.obstacle or not self.requirements:
             return Verdict.NOT_EVALUATED
-        return Verdict.MET if all(item.met for item in self.criteria) else Verdict.MISSED
+        return Verdict.MET if all(item.met for item in self.requirements) else Verdict.MISSED
 
     @property
     def missed_by(self) -> str:
-        """Every criterion missed, the worst first."""
-        missed = sorted((item for item in self.criteria if not item.met), key=lambda item: -item.excess)
+        """Every requirement missed, the worst first."""
+        missed = sorted((item for item in self.requirements if not item.met), key=lambda item: -item.excess)
         return "; ".join(item.miss() for item in missed)

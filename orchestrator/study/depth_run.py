@@ -1,4 +1,4 @@
-"""One run of the comparison in figures: the analysed bearing and the shaft, before and after."""
+"""One run of a comparison in figures: the analysed bearing and the shaft, before the event and after it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from orchestrator.results.statistics import (
     shaft_statistics,
     time_mean,
 )
-from orchestrator.results.windows import BEFORE, Phase, Window, phases
+from orchestrator.results.windows import Phase, Window, phases
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +29,7 @@ class NotEvaluatedError(Exception):
 
 
 @dataclass(frozen=True)
-class Condition:
+class PhaseFigures:
     """One phase of a run.
 
     Attributes
@@ -81,7 +81,7 @@ class StartTransient:
 
 
 @dataclass(frozen=True)
-class Observation:
+class DepthRun:
     """A run at one depth.
 
     Attributes
@@ -91,21 +91,21 @@ class Observation:
     unfinished : str
         How and when the run ended before its end; empty for a complete one.
     contact_from : float
-        Contact force from which contact counts [N].
-    before, after : Condition or None
+        Contact force from which contact counts [N]; not a number for a run that left no record.
+    before, after : PhaseFigures or None
         None where the record does not reach; a run without event has only `before`.
     start : StartTransient or None
         None when the first phase is too short.
     """
 
     depth: str
-    unfinished: str
-    contact_from: float
-    before: Condition | None
-    after: Condition | None
-    start: StartTransient | None
+    unfinished: str = ""
+    contact_from: float = float("nan")
+    before: PhaseFigures | None = None
+    after: PhaseFigures | None = None
+    start: StartTransient | None = None
 
-    def require(self, name: str) -> Condition:
+    def require(self, name: str) -> PhaseFigures:
         """Return the phase ``before`` or ``after``.
 
         Raises
@@ -113,45 +113,27 @@ class Observation:
         NotEvaluatedError
             When the run does not give it, or not all of it.
         """
-        condition = self.before if name == "before" else self.after
-        cut = self.unfinished and (name == "after" or self.after is None)
-        if cut:
+        figures = self.before if name == "before" else self.after
+        if self.unfinished and (name == "after" or self.after is None):
             raise NotEvaluatedError(f"{self.depth.upper()} {self.unfinished}")
-        if condition is None:
+        if figures is None:
             raise NotEvaluatedError(
                 "no blade fracture in the run" if name == "after" else "nothing recorded before the fracture"
             )
-        return condition
+        return figures
 
 
-def absent(depth: str, unfinished: str) -> Observation:
-    """A run that left no record."""
-    return Observation(depth, unfinished, float("nan"), None, None, None)
-
-
-def observe(record: xr.Dataset, depth: str, bearing: str, *, unfinished: str = "") -> Observation:
-    """Figures of a run.
-
-    Parameters
-    ----------
-    record : xarray.Dataset
-        With two samples at least.
-    depth : str
-        Modelling depth.
-    bearing : str
-        The analysed bearing.
-    unfinished : str
-        How the run ended when it did not finish.
-    """
+def read_run(record: xr.Dataset, depth: str, bearing: str, *, unfinished: str = "") -> DepthRun:
+    """Figures of a run from its record, which has two samples at least; see `DepthRun`."""
     found = phases(record)
     threshold = contact_threshold(record, bearing, found)
-    conditions = {phase.name: _condition(record, bearing, phase, threshold) for phase in found}
-    before = conditions.get("before", conditions.get("steady"))
+    figures = {phase.name: _figures(record, bearing, phase, threshold) for phase in found}
+    before = figures.get("before", figures.get("steady"))
     start = _start(record, bearing, found[0]) if before is not None else None
-    return Observation(depth, unfinished, threshold, before, conditions.get("after"), start)
+    return DepthRun(depth, unfinished, threshold, before, figures.get("after"), start)
 
 
-def _condition(record: xr.Dataset, bearing: str, phase: Phase, threshold: float) -> Condition:
+def _figures(record: xr.Dataset, bearing: str, phase: Phase, threshold: float) -> PhaseFigures:
     time = np.asarray(record["time"].values, dtype=float)
     span = phase.span.mask(time)
     contact = series(record, "contact_force", bearing)
@@ -162,7 +144,7 @@ def _condition(record: xr.Dataset, bearing: str, phase: Phase, threshold: float)
         position = series(record, "least_gap_position", bearing)[span]
         front, rear = (time_mean(time[span], (sign * position > 0).astype(float)) for sign in (-1.0, 1.0))
         ends = (front, rear)
-    return Condition(
+    return PhaseFigures(
         phase,
         bearing_statistics(record, bearing, phase, contact_from=threshold),
         shaft_statistics(record, phase),
@@ -174,7 +156,7 @@ def _condition(record: xr.Dataset, bearing: str, phase: Phase, threshold: float)
 def _start(record: xr.Dataset, bearing: str, phase: Phase) -> StartTransient | None:
     time, gap = np.asarray(record["time"].values, dtype=float), series(record, "least_gap", bearing)
     span = phase.span
-    length = _whole_revolutions(record, min(BEFORE, span.length / 2))
+    length = _whole_revolutions(record, min(phase.mean.length, span.length / 2))
     windows = Window(span.start, span.start + length), Window(span.end - length, span.end)
     masks = [window.mask(time) for window in windows]
     if length == 0.0 or min(int(mask.sum()) for mask in masks) < 2:

@@ -15,17 +15,7 @@ SECTION_TRANSIENT = "section 5.2, Transient: abrupt blade failure"
 
 @dataclass(frozen=True)
 class Published:
-    """A figure of the paper.
-
-    Attributes
-    ----------
-    value : float
-        SI units.
-    tolerance : float
-        Share of the value by which a figure here may differ.
-    source : str
-        Where the paper states it.
-    """
+    """A figure of the paper: SI units, share by which a figure here may differ, where the paper states it."""
 
     value: float
     tolerance: float
@@ -43,7 +33,7 @@ STRESS_BEFORE = Published(40e6, 0.20, f"{SECTION_STEADY}; Figure 9")
 SOMMERFELD_AFTER = Published(7.7, 0.15, SECTION_TRANSIENT)
 FORCE_RATIO = Published(3.0, 0.30, f"{SECTION_TRANSIENT}: 'underestimate the maximum forces by factor 3'")
 
-# How the paper's words are read as criteria.
+# How the paper's words are read as requirements.
 CENTRE_OPEN_SHARE = 0.10
 """The centre line is clearly open above this share of its mean gap before the fracture ..."""
 CENTRE_OPEN_ROUGHNESS = 10.0
@@ -53,13 +43,8 @@ OTHER_END_SHARE = 0.01
 MOMENT_SHARE = 0.05
 """Moments are significant from this share of force times width: the resultant lies that far off mid-plane."""
 
-# What an engineer holds the results against.
-FULL_FILM = 5.0
-"""Least gap over composite roughness from which a film separates the surfaces fully: hydrodynamic
-lubrication in Hamrock, Schmid and Jacobson, Fundamentals of Fluid Film Lubrication (2004), chapter 1."""
+DEPTHS = ("v1", "v2", "v3")
+"""What the paper compares."""
 STRESS_LIMIT = 150e6
 """Nominal normal stress [Pa] from which a shaft is inspected: assumed, about half the rotating-bending
 fatigue limit of a smooth bar of NiCrMoV rotor steel, for notches."""
-
-TRAIN = "turbine"
-"""The train whose data were fitted to these figures; any other machine is not expected to meet them."""

@@ -1,0 +1,108 @@
+"""A scenario run at several depths, each by the own command in a process of its own, and read back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from orchestrator.results.certificate import at_half_step
+from orchestrator.results.record_files import RECORD_FILE, read_record
+from orchestrator.results.statistics import analysed_bearing
+from orchestrator.scenario.file import scenario_toml, with_overrides
+from orchestrator.study.children import COMMAND, Child, cores, run_children
+from orchestrator.study.comparison import Comparison, gather
+from orchestrator.study.progress import show_runs
+from rotor_fmu.train.file import bundled_trains
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from orchestrator.scenario.scenario import Scenario
+    from rotor_fmu.train.train import Train
+
+COMPARED = "compared.toml"
+"""The scenario that is run at every depth."""
+
+
+@dataclass(frozen=True)
+class Means:
+    """How the runs are carried out.
+
+    Attributes
+    ----------
+    fmus : Path
+        Folder of the FMUs, which are there.
+    jobs : int or None
+        Runs at the same time; None: one a core.
+    budget : float
+        Wall time in s that a call to a unit may take; 0 for any.
+    command : sequence of str
+        What runs a scenario.
+    """
+
+    fmus: Path
+    jobs: int | None
+    budget: float
+    command: Sequence[str] = COMMAND
+
+
+def run_depths(
+    scenario: Scenario, train: Train, depths: Sequence[str], folder: Path, means: Means, console: Console
+) -> tuple[Comparison, list[xr.Dataset]]:
+    """Run a scenario at several depths.
+
+    Parameters
+    ----------
+    scenario, train : Scenario, Train
+        What is run; its depth counts for nothing.
+    depths : sequence of str
+        The deepest first.
+    folder : Path
+        Made if missing. Afterwards the results of each run lie in the folder of its depth, also partial
+        ones, beside the scenario (`COMPARED`).
+    means : Means
+        How the runs are carried out.
+    console : rich.console.Console
+        Shows the progress.
+
+    Returns
+    -------
+    Comparison, list of xarray.Dataset
+        And the records that the runs left, in the order of the depths.
+
+    Raises
+    ------
+    OrchestratorError
+        What a run says is wrong with the input.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    if scenario.train not in bundled_trains():
+        path = (scenario.folder / scenario.train).absolute()
+        scenario = scenario.model_copy(update={"train": str(path)})
+    source = folder / COMPARED
+    source.write_text(scenario_toml(scenario), encoding="utf-8")
+    jobs = min(means.jobs or cores(), len(depths))
+    options = ("--fmus", str(means.fmus.absolute()), "--budget", str(means.budget), "--no-figures")
+    options += ("--threads", str(max(1, cores() // jobs)))
+    children = [Child(d, (str(source), "--depth", d, *options), folder / d) for d in depths]
+    with show_runs(depths, console) as show:
+        ended = run_children(children, jobs, show, command=means.command)
+    records: dict[str, xr.Dataset | None] = {}
+    for child in children:
+        if child.results.is_dir() and child.results != child.folder:
+            child.results.rename(child.folder)
+        written = (child.folder / RECORD_FILE).is_file()
+        records[child.name] = read_record(child.folder) if written else None
+    left = [record for record in records.values() if record is not None]
+    bearing = scenario.analysed_bearing or (analysed_bearing(left[0]) if left else train.bearings[0].name)
+    return gather(records, ended, bearing, scenario, train), left
+
+
+def refine(scenario: Scenario) -> Scenario:
+    """The scenario with twice the film resolution and half the macro step."""
+    film = {"columns": 2 * scenario.film.columns, "rows": 2 * scenario.film.rows}
+    return with_overrides(at_half_step(scenario), {"film": film})
