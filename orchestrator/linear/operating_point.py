@@ -6,6 +6,8 @@ and the tangents that they export there are its linearised bearings.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,15 +20,12 @@ from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import UnitError
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start
-from orchestrator.master.system import RESPONSE
+from orchestrator.master.system import System
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.linear.analysis import LinearBearings
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
-
-_STIFFNESS = slice(RESPONSE["K[1,1]"], RESPONSE["K[4,4]"] + 1)
-_DAMPING = slice(RESPONSE["C[1,1]"], RESPONSE["C[4,4]"] + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,17 +44,11 @@ class OperatingPoint:
     loads: Array
 
 
-def operating_point(scenario: Scenario, train: Train, fmus: Path) -> OperatingPoint:
-    """Find the operating point of a scenario's train.
+@contextmanager
+def on_running_films(scenario: Scenario, train: Train, fmus: Path) -> Iterator[System]:
+    """Yield a scenario's train in static equilibrium on its films, at rated speed and before any time step.
 
-    Parameters
-    ----------
-    scenario : Scenario
-        Depths, film resolution and unbalance.
-    train : Train
-        Its train.
-    fmus : Path
-        Folder with the FMUs.
+    The units are in Initialization Mode; the rotor rests under `System.laws`, the films are evaluated there.
 
     Raises
     ------
@@ -68,15 +61,18 @@ def operating_point(scenario: Scenario, train: Train, fmus: Path) -> OperatingPo
         system = assemble(scenario, train, fmus, store)
         try:
             find_start(system, train.bearings, train.speed, train.nodes)
-            responses = system.responses.copy()
-            forces = system.forces[:, :2].copy()
+            yield system
         except UnitError as error:
             raise EquilibriumError(str(error)) from None
         finally:
             system.close()
-    count = len(train.bearings)
-    stiffness, damping = (responses[:, part].reshape(count, 4, 4) for part in (_STIFFNESS, _DAMPING))
-    return OperatingPoint(LinearBearings(stiffness.copy(), damping.copy()), forces)
+
+
+def operating_point(scenario: Scenario, train: Train, fmus: Path) -> OperatingPoint:
+    """Find the operating point of a scenario's train; raises as `on_running_films`."""
+    with on_running_films(scenario, train, fmus) as system:
+        stiffness, damping = np.split(system.tangents, 2, axis=2)
+        return OperatingPoint(LinearBearings(stiffness.copy(), damping.copy()), system.forces[:, :2].copy())
 
 
 def bearing_data(point: OperatingPoint, train: Train, films: str) -> xr.Dataset:

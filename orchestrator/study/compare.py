@@ -86,8 +86,8 @@ def run_depths(
     source = folder / COMPARED
     source.write_text(scenario_toml(scenario), encoding="utf-8")
     jobs = min(means.jobs or cores(), len(depths))
-    options = ("--fmus", str(means.fmus.absolute()), "--budget", str(means.budget), "--no-figures")
-    options += ("--threads", str(max(1, cores() // jobs)))
+    options = ["--fmus", str(means.fmus.absolute()), "--budget", str(means.budget), "--no-figures"]
+    options += ["--threads", str(max(1, cores() // jobs))]
     children = [Child(d, (str(source), "--depth", d, *options), folder / d) for d in depths]
     with show_runs(depths, console) as show:
         ended = run_children(children, jobs, show, command=means.command)

@@ -14,9 +14,6 @@ from orchestrator.fmi import unit, watchdog
 from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record
-from orchestrator.scenario.file import load_scenario
-from orchestrator.study.paper.processes import run_all
-from orchestrator.study.paper.worker import Task
 from tests.faults import fault
 from tests.orchestrator.commands import done
 
@@ -162,24 +159,3 @@ def test_calls_that_come_back_do_not_add_up():
             back.set()
             thread.join()
     assert given_up == []
-
-
-@fault(
-    "process",
-    "a unit that hangs in a run of `compare`",
-    "that run is `unit-hung`, with its record; the others go on",
-    guard="orchestrator.study.paper.worker:simulate_task",
-)
-def test_a_hanging_unit_ends_the_process_of_its_run(faulty, small_fmus, tmp_path, monkeypatch):
-    monkeypatch.setenv("FAULT", "sleep")
-    settings = {"depth": "v3", "end": 0.005, "event": None, "record": {"interval": 1e-4}}
-    plain = load_scenario("small", settings)
-    hangs = load_scenario("small", settings | {"depth_at": {"rear": str(faulty)}})
-    tasks = [
-        Task("v1", hangs, small_fmus, tmp_path / "v1", 1.0),
-        Task("v3", plain, small_fmus, tmp_path / "v3"),
-    ]
-    ended = run_all(tasks, 2, lambda *_: None)
-    assert (ended["v1"].outcome, ended["v3"].outcome) == ("unit-hung", "finished")
-    assert "rear: fmi2DoStep has not come back" in ended["v1"].message
-    assert read_record(tmp_path / "v1").attrs["status"] == "unit-hung"

@@ -4,7 +4,6 @@ import pytest
 
 from orchestrator import exit_status
 from orchestrator.case.checkpoint_folder import checkpoint_folder
-from orchestrator.case.simulate import simulate
 from orchestrator.commands import campbell as campbell_command
 from orchestrator.commands import run as run_command
 from orchestrator.observers import checkpoint
@@ -12,9 +11,6 @@ from orchestrator.outcome import Outcome
 from orchestrator.results import files as result_files
 from orchestrator.results import folder as result_folder
 from orchestrator.results.record_files import read_record
-from orchestrator.scenario.file import load_scenario
-from orchestrator.study.paper import worker
-from orchestrator.study.paper.worker import Task
 from tests.faults import fault
 from tests.orchestrator.commands import done
 from tests.orchestrator.foreign import call
@@ -173,25 +169,6 @@ def test_fmus_that_cannot_be_built(short):
     result, _ = run(short, "/proc/fmus")
     assert result.exit_code == exit_status.INPUT_ERROR, result.output
     assert "/proc/fmus: FMUs cannot be built there: " in result.stderr
-
-
-@fault(
-    "machine",
-    "a full disk in one run of `compare`",
-    "that run is `not-written`, with folder and reason; the others go on",
-    guard="orchestrator.study.paper.worker:_conclude",
-)
-def test_a_run_of_compare_that_cannot_write(small_fmus, tmp_path, monkeypatch):
-    class Pipe:
-        def send(self, message):
-            self.message = message
-
-    scenario = load_scenario("small", {"depth": "v3", "end": 0.01, "event": None})
-    result, pipe = simulate(scenario, small_fmus), Pipe()
-    monkeypatch.setattr(worker, "write_data", under_limit(10_000, worker.write_data))
-    worker._conclude(Task("v3", scenario, small_fmus, tmp_path / "v3"), result, pipe)
-    assert pipe.message.outcome == "not-written" and "File too large" in pipe.message.message
-    assert list(tmp_path.iterdir()) == []
 
 
 @fault(

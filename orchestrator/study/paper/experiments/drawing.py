@@ -17,7 +17,7 @@ def figure(width: float = 9.0, height: float = 3.9) -> Figure:
 
 
 def save(drawn: Figure, script: str) -> None:
-    """Write the figure beside its script, under its name."""
-    path = Path(script).with_suffix(".png")
+    """Write the figure under its script's name into the present folder."""
+    path = Path(script).with_suffix(".png").name
     drawn.savefig(path)
-    print(f"written: {path.name}")
+    print(f"written: {path}")

@@ -1,6 +1,6 @@
 """Row 12: what raises the largest force of V1 over that of V2, and what it costs.
 
-``python orchestrator/study/paper/experiments/force_ratio.py`` breaks a blade off the middle wheel of LP2
+``python -m orchestrator.study.paper.experiments.force_ratio`` breaks a blade off the middle wheel of LP2
 for several core diameters of the LP rotors and several unbalances.  The diameter detunes the first
 bending mode: near half the speed at the bundled 1.11 m, higher above.  V1 runs at the bearings of LP2, V2
 at all others; the shaft is reduced after Craig and Bampton, which is quick to prepare.
@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from orchestrator.study.paper.calibration.coupled import Blade, CoupledTrain
-from orchestrator.study.paper.calibration.measures import Fractured, bearing_index, fractured
+from orchestrator.study.depth_run import read_run
+from orchestrator.study.paper.calibration.bench import bearing_index, bench, late_force, near
 from orchestrator.study.paper.experiments.drawing import figure, save
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
@@ -25,7 +25,15 @@ WHEEL, ANALYSED, LOAD = "LP2-5", "LP2-front", 1.8e6
 CORES, UNBALANCES = (1.11, 1.20, 1.30, 1.45), (120.0, 160.0, 200.0)
 FRACTURE, END = 0.2, 1.0
 
-Cell = dict[str, Fractured]
+
+@dataclass(frozen=True)
+class Cell:
+    """Mean Sommerfeld number, largest and late force [N], least gap [m] after the fracture."""
+
+    sommerfeld: float
+    force: float
+    late_force: float
+    gap: float
 
 
 def detuned(core: float) -> Train:
@@ -38,19 +46,21 @@ def detuned(core: float) -> Train:
     return turbine_train(design)
 
 
-def column(core: float) -> list[Cell]:
+def column(core: float) -> list[dict[str, Cell]]:
     """V1 and V2 for all unbalances at one core diameter."""
     train = detuned(core)
-    index = bearing_index(train, ANALYSED)
-    near = dict.fromkeys((ANALYSED, "LP2-rear"), "v1")
-    depths = {
-        depth: CoupledTrain(train, "v2", depth_at=at, reduction="craig-bampton")
-        for depth, at in (("v1", near), ("v2", {}))
-    }
     cells = []
     for unbalance in UNBALANCES:
-        blade = Blade(WHEEL, unbalance, math.pi, FRACTURE)
-        cells.append({d: fractured(train, c.run(blade, END), index, FRACTURE) for d, c in depths.items()})
+        event = {"wheel": WHEEL, "unbalance": unbalance, "phase": math.pi, "time": FRACTURE}
+        found = {}
+        with bench() as place:
+            for depth in ("v1", "v2"):
+                settings = {"end": END, "reduction": "craig-bampton", "depth_at": near(train, "LP2", depth)}
+                record = place.run(train, "v2", event, **settings)
+                after = read_run(record, depth, ANALYSED).require("after").bearing
+                late = late_force(record, ANALYSED)
+                found[depth] = Cell(after.sommerfeld_mean, after.force_max, late, after.least_gap_min)
+        cells.append(found)
         v1, v2 = cells[-1]["v1"], cells[-1]["v2"]
         print(
             f"{core:6.2f} {unbalance:6.0f}   {v1.sommerfeld:7.2f} {v2.sommerfeld:7.2f}"

@@ -1,6 +1,6 @@
 """Row 6: why the gaps of V3 and V2 lie further apart than the paper's 130 and 115 um.
 
-``python orchestrator/study/paper/experiments/gap_ratio.py`` floats one aligned journal on V2 and on V3
+``python -m orchestrator.study.paper.experiments.gap_ratio`` floats one aligned journal on V2 and on V3
 films under the same load: over b/d and So; over readings of the paper's So = 4.3, which it prints
 with and without psi^2; and over an effective width in V3.
 """

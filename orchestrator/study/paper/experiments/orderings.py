@@ -1,6 +1,6 @@
 """Row 14: where along the shaft V2 and V3 vibrate, and why V3 stays below V2 in the first swing.
 
-``python orchestrator/study/paper/experiments/orderings.py`` runs the bundled train on V2 and V3 films across
+``python -m orchestrator.study.paper.experiments.orderings`` runs the bundled train on V2 and V3 films across
 the fracture and keeps the largest vibration amplitude and stress of every node.
 """
 
@@ -9,42 +9,31 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.study.paper.calibration.coupled import CoupledTrain
-from orchestrator.study.paper.calibration.films import GAP
-from orchestrator.study.paper.calibration.measures import bearing_index
+from orchestrator.results.statistics import interval_extreme, series
+from orchestrator.study.paper.calibration.bench import Bench, bearing_index, bench
 from orchestrator.study.paper.experiments.drawing import COLOURS, figure, save
 from rotor_fmu.train.turbine_geometry import turbine_train
-from rotor_fmu.vibration.rotor import Rotor
 
-WHEEL, UNBALANCE, ANALYSED, FRACTURE, END, STEP = "LP1-2", 265.0, "LP1-front", 0.2, 0.6, 1e-4
+ANALYSED, FRACTURE, END = "LP1-front", 0.2, 0.6
+BLADE = {"wheel": "LP1-2", "unbalance": 265.0, "time": FRACTURE}
 
 
-def envelopes(depth: str) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+def envelopes(place: Bench, depth: str) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Largest amplitude and stress of each node after the fracture; least gap at the analysed bearing."""
-    train = turbine_train()
-    coupled = CoupledTrain(train, depth, reduction="craig-bampton")
-    index, wheel = bearing_index(train, ANALYSED), [w.name for w in train.wheels].index(WHEEL)
-    unbalance = np.zeros(len(train.wheels))
-    unbalance[wheel] = UNBALANCE
-    rotor = Rotor(train, reduction="craig-bampton", blade_unbalance=unbalance, fracture_time=FRACTURE)
-    rotor.start_from_law(*coupled.law, orbit=True)
-    law = coupled.films.evaluate(rotor.kinematics())
-    amplitude, stress, gap = np.zeros(train.nodes), np.zeros(train.nodes), np.inf
-    for k in range(round(END / STEP)):
-        rotor.step(k * STEP, STEP, *law, train.speed)
-        law = coupled.films.evaluate(rotor.kinematics())
-        if k * STEP >= FRACTURE and k % 5 == 0:
-            fields = rotor.fields()
-            amplitude, stress = np.maximum(amplitude, fields.amplitude), np.maximum(stress, fields.stress)
-            gap = min(gap, coupled.films.outputs[index, GAP])
-    return amplitude, stress, float(gap)
+    settings = {"end": END, "reduction": "craig-bampton", "record": {"interval": 5e-4}}
+    record = place.run(turbine_train(), depth, BLADE, **settings)
+    behind = record.where(record["time"] > FRACTURE, drop=True)
+    gap = interval_extreme(behind, "least_gap_min", ANALYSED, series(behind, "least_gap", ANALYSED))
+    amplitude, stress = (behind[name].max("time").values for name in ("amplitude", "stress"))
+    return amplitude, stress, float(gap.min())
 
 
 def main() -> None:
     """Print the largest values and draw them along the shaft."""
     train = turbine_train()
     z, node = np.array(train.z), train.bearings[bearing_index(train, ANALYSED)].node
-    found = {depth: envelopes(depth) for depth in ("v2", "v3")}
+    with bench() as place:
+        found = {depth: envelopes(place, depth) for depth in ("v2", "v3")}
     for depth, (amplitude, stress, gap) in found.items():
         print(
             f"{depth}: largest amplitude {amplitude.max() * 1e3:.3f} mm at z {z[amplitude.argmax()]:.2f} m, "

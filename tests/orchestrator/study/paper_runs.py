@@ -4,17 +4,19 @@ from dataclasses import replace
 
 from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
 from orchestrator.results.windows import Phase, Window
-from orchestrator.study.paper.observation import Condition, Observation
-from orchestrator.study.paper.runs import Runs
+from orchestrator.study.children import Ended
+from orchestrator.study.comparison import Comparison, Settings
+from orchestrator.study.depth_run import DepthRun, PhaseFigures
 from rotor_fmu.train.train import BearingSeat
 
 SEAT = BearingSeat("LP1-front", 3, 0.8, 0.64, 8.6e-4, 0.0242, roughness=2e-6)
 THRESHOLD = 1.8e3
+COARSE, FINE = Settings(1e-4, 48, 8, 2.0), Settings(5e-5, 96, 16, 2.0)
 BEFORE = Phase("before", Window(0.92, 1.0), Window(0.92, 1.0), Window(0.0, 1.0))
 AFTER = Phase("after", Window(1.4, 2.0), Window(1.0, 2.0), Window(1.0, 2.0))
 
 
-def condition(phase, *, ends=(0.5, 0.5), contact=0.0, amplitude=0.3e-3, stress=40e6, **figures):
+def figures(phase, *, ends=(0.5, 0.5), contact=0.0, amplitude=0.3e-3, stress=40e6, **others):
     values = {
         "force_mean": 1.8e6,
         "force_max": 1.9e6,
@@ -29,21 +31,21 @@ def condition(phase, *, ends=(0.5, 0.5), contact=0.0, amplitude=0.3e-3, stress=4
         "contact_share": 0.2 if contact > THRESHOLD else 0.0,
         "contact_max": contact,
         "sommerfeld_mean": 4.3,
-        **figures,
+        **others,
     }
     shaft = ShaftStatistics(phase.name, amplitude, amplitude, 12.0, stress, stress, 12.0)
-    return Condition(phase, BearingStatistics("LP1-front", phase.name, **values), shaft, contact, ends)
+    return PhaseFigures(phase, BearingStatistics("LP1-front", phase.name, **values), shaft, contact, ends)
 
 
 def runs():
     """Every row met."""
     before = {
-        "v1": condition(BEFORE),
-        "v2": condition(BEFORE, least_gap_mean=115e-6, least_gap_min=110e-6),
-        "v3": condition(BEFORE, least_gap_mean=130e-6, least_gap_min=125e-6),
+        "v1": figures(BEFORE),
+        "v2": figures(BEFORE, least_gap_mean=115e-6, least_gap_min=110e-6),
+        "v3": figures(BEFORE, least_gap_mean=130e-6, least_gap_min=125e-6),
     }
     after = {
-        "v1": condition(
+        "v1": figures(
             AFTER,
             force_max=12e6,
             moment_max=2e6,
@@ -53,18 +55,17 @@ def runs():
             contact=3e6,
             stress=120e6,
         ),
-        "v2": condition(AFTER, force_max=4e6, least_gap_min=30e-6, amplitude=2e-3, stress=90e6),
-        "v3": condition(AFTER, force_max=4.1e6, least_gap_min=60e-6, amplitude=2.2e-3, stress=85e6),
+        "v2": figures(AFTER, force_max=4e6, least_gap_min=30e-6, amplitude=2e-3, stress=90e6),
+        "v3": figures(AFTER, force_max=4.1e6, least_gap_min=60e-6, amplitude=2.2e-3, stress=85e6),
     }
-    observed = {
-        depth: Observation(depth, "", THRESHOLD, before[depth], after[depth], None) for depth in before
-    }
-    return Runs(observed, SEAT, "turbine", 4.3e6)
+    found = {depth: DepthRun(depth, "", THRESHOLD, before[depth], after[depth]) for depth in before}
+    ended = {depth: Ended("finished", "", "", 2.0, 10.0) for depth in found}
+    return Comparison("Blade fracture", "turbine", COARSE, SEAT, 4.3e6, found, ended)
 
 
 def spoiled(found, depth, phase, **changes):
-    """The runs with other figures in one phase of one run: of the bearing, the shaft or the condition."""
-    run = found.observed[depth]
+    """The runs with other figures in one phase of one run: of the bearing, the shaft or the phase."""
+    run = found.runs[depth]
     old = getattr(run, phase)
     names = {"bearing": old.bearing, "shaft": old.shaft}
     parts = {
@@ -73,4 +74,4 @@ def spoiled(found, depth, phase, **changes):
     }
     own = {k: v for k, v in changes.items() if hasattr(old, k)}
     new = replace(old, **parts, **own)
-    return replace(found, observed={**found.observed, depth: replace(run, **{phase: new})})
+    return replace(found, runs={**found.runs, depth: replace(run, **{phase: new})})

@@ -9,24 +9,22 @@ from io import StringIO
 import numpy as np
 import pytest
 
-from orchestrator.results.quantities import GAP
-from orchestrator.study.paper import paper
-from orchestrator.study.paper.conclusions import Action, conclude
-from orchestrator.study.paper.criterion import RATIO, Criterion, Row, Verdict
-from orchestrator.study.paper.observation import absent, observe
-from orchestrator.study.paper.report import Settings, changes, compare, to_csv, to_json
+from orchestrator.results.quantities import GAP, RATIO
+from orchestrator.scenario.file import load_scenario, with_overrides
+from orchestrator.study.conclusions import Action, Limits, conclude
+from orchestrator.study.depth_run import DepthRun, read_run
+from orchestrator.study.paper import published
+from orchestrator.study.paper.report import PaperReport, largest_change, speaks_of
+from orchestrator.study.paper.requirement import Requirement, Row, Verdict
 from orchestrator.study.paper.rows import rows
-from orchestrator.study.paper.table import to_text
-from orchestrator.study.paper.worker import Ended
 from tests.orchestrator import synthetic_record
-from tests.orchestrator.paper_runs import runs, spoiled
+from tests.orchestrator.study.paper_runs import FINE, SEAT, runs, spoiled
 
-COARSE = Settings(1e-4, 48, 8, 2.0)
-DONE = {depth: Ended("finished", "", "", 2.0, 10.0) for depth in ("v1", "v2", "v3")}
+LIMITS = Limits.of(SEAT, published.STRESS_LIMIT)
 
 
-def comparison(found, settings=COARSE, ended=DONE):
-    return compare("Blade fracture", settings, found, ended)
+def with_run(found, run):
+    return replace(found, runs={**found.runs, run.depth: run})
 
 
 def test_runs_like_the_papers_meet_every_row():
@@ -104,31 +102,29 @@ def test_the_mechanisms_are_told_with_the_figures_of_the_run():
     assert "the blade's 4.30 MN pass through the bearings" in rows(found)[11].reason
     assert "rear end" in rows(spoiled(runs(), "v1", "after", ends=(0.0, 1.0)))[9].reason
     assert "first swing" in rows(spoiled(runs(), "v2", "after", amplitude_max=3e-3))[13].reason
-    other = replace(spoiled(runs(), "v1", "before", force_mean=1e6), train="small")
-    assert rows(other)[0].reason.startswith("another machine")
 
 
 def test_what_is_not_a_number_is_never_met():
-    assert not Criterion.above("x", math.nan, 0.0, RATIO).met
-    assert not Criterion.below("x", math.nan, 0.0, GAP).met
+    assert not Requirement.above("x", math.nan, 0.0, RATIO).met
+    assert not Requirement.below("x", math.nan, 0.0, GAP).met
     assert Row(1, "", "", "", "", "").verdict is Verdict.NOT_EVALUATED
 
 
 def test_rows_say_why_they_cannot_be_evaluated():
     full = runs()
-    calm = replace(full, observed={d: replace(run, after=None) for d, run in full.observed.items()})
+    calm = replace(full, runs={d: replace(run, after=None) for d, run in full.runs.items()})
     table = rows(calm)
     assert [row.verdict for row in table[:8]] == [Verdict.MET] * 8
     assert {row.verdict for row in table[8:]} == {Verdict.NOT_EVALUATED}
     assert {row.obstacle for row in table[8:]} == {"no blade fracture in the run"}
 
-    cut = replace(full.observed["v1"], unfinished="step-refused at t = 1.2 s")
-    table = rows(replace(full, observed={**full.observed, "v1": cut}))
+    cut = replace(full.runs["v1"], unfinished="step-refused at t = 1.2 s")
+    table = rows(with_run(full, cut))
     assert [row.number for row in table if row.verdict is Verdict.NOT_EVALUATED] == [9, 10, 12, 13]
     assert table[8].obstacle == "V1 step-refused at t = 1.2 s"
 
-    gone = absent("v2", "process-died at t = 0 s: ended by SIGKILL")
-    table = rows(replace(full, observed={**full.observed, "v2": gone}))
+    gone = DepthRun("v2", "process-died at t = 0 s: ended by SIGKILL")
+    table = rows(with_run(full, gone))
     met = [row.number for row in table if row.verdict is Verdict.MET]
     assert met == [3, 4, 6, 9, 10]
     assert "V2 process-died" in table[0].obstacle
@@ -136,46 +132,73 @@ def test_rows_say_why_they_cannot_be_evaluated():
 
 def test_what_an_engineer_concludes_follows_from_contact_gap_and_stress():
     found = runs()
-    assert [item.action for item in conclude(found)] == [Action.TRIP, Action.TOLERABLE, Action.TOLERABLE]
+    assert [item.action for item in conclude(found, LIMITS)] == [
+        Action.TRIP,
+        Action.TOLERABLE,
+        Action.TOLERABLE,
+    ]
     assert (
-        conclude(found)[0].sentence().startswith("V1 - trip: shut the train down at once: solid contact 20 %")
+        conclude(found, LIMITS)[0]
+        .sentence()
+        .startswith("V1 - trip: shut the train down at once: solid contact 20 %")
     )
     narrow = spoiled(found, "v2", "after", least_gap_min=9.9e-6)
-    assert conclude(narrow)[1].action is Action.INSPECT
-    strained = spoiled(found, "v3", "after", stress_max=paper.STRESS_LIMIT * 1.01)
-    assert conclude(strained)[2].action is Action.INSPECT
-    cut = replace(found.observed["v2"], unfinished="interrupted at t = 1.5 s")
-    unknown = conclude(replace(found, observed={**found.observed, "v2": cut}))[1]
+    assert conclude(narrow, LIMITS)[1].action is Action.INSPECT
+    strained = spoiled(found, "v3", "after", stress_max=published.STRESS_LIMIT * 1.01)
+    assert conclude(strained, LIMITS)[2].action is Action.INSPECT
+    cut = replace(found.runs["v2"], unfinished="interrupted at t = 1.5 s")
+    unknown = conclude(with_run(found, cut), LIMITS)[1]
     assert unknown.action is Action.UNKNOWN and "interrupted" in unknown.sentence()
 
 
+def test_without_a_limit_of_the_stress_none_is_judged():
+    found = spoiled(runs(), "v3", "after", stress_max=1e9)
+    item = conclude(found, Limits.of(SEAT))[2]
+    assert item.action is Action.TOLERABLE and item.grounds.endswith("largest stress 1000.0 N/mm²")
+    assert "No limit of the stress is known" in Limits.of(SEAT).text()
+
+
 def test_a_finer_resolution_tells_what_it_changes():
-    coarse = comparison(runs())
-    fine = spoiled(runs(), "v1", "before", least_gap_mean=101e-6)
-    fine = comparison(spoiled(fine, "v1", "after", sommerfeld_mean=6.0), Settings(5e-5, 96, 16, 2.0))
-    found = changes(coarse, fine)
-    assert found[2].largest == pytest.approx(0.01 / 1.1)  # against the upper bound, 110 µm
-    assert [item.row.number for item in found if item.flips] == [9]
-    text = to_text(coarse, fine)
+    fine = spoiled(replace(runs(), settings=FINE), "v1", "before", least_gap_mean=101e-6)
+    fine = spoiled(fine, "v1", "after", sommerfeld_mean=6.0)
+    report = PaperReport(runs(), fine)
+    change, label = largest_change(report.rows[2], rows(fine)[2])
+    assert change == pytest.approx(0.01 / 1.1) and label == "V1"  # against the upper bound, 110 µm
+    text = report.to_text()
     assert "The verdict changes in rows 9." in text and "met -> missed" in text
     assert "film 96 x 16, macro step 0.05 ms" in text
-    assert "No verdict changes." in to_text(coarse, comparison(runs()))
-    data = json.loads(to_json(coarse, fine))
-    assert [c["row"] for c in data["check"]["changes"] if c["verdict_changes"]] == [9]
+    assert "No verdict changes." in PaperReport(runs(), runs()).to_text()
+    told = json.loads(report.to_json())["check"]["changes"]
+    assert [item["row"] for item in told if item["verdict_changes"]] == [9]
 
 
 def test_text_json_and_csv_say_the_same():
-    found = comparison(spoiled(runs(), "v3", "before", least_gap_mean=222e-6))
-    text = to_text(found)
+    report = PaperReport(spoiled(runs(), "v3", "before", least_gap_mean=222e-6))
+    text = report.to_text()
     assert "13 met, 1 missed of 14 rows" in text
     assert "V3 - V1: +307 %" in text and "Reason, row 6: the gap ratio" in text
     assert "means and harmonic parts 1.400 to 2.000 s" in text
-    data = json.loads(to_json(found, None))
-    table = list(csv.DictReader(StringIO(to_csv(found, None))))
+    data = json.loads(report.to_json())
+    table = list(csv.DictReader(StringIO(report.to_csv())))
     assert [row["verdict"] for row in data["rows"]] == [row["verdict"] for row in table]
-    assert data["rows"][5]["criteria"][0]["value"] == pytest.approx(122e-6)
+    assert data["rows"][5]["requirements"][0]["value"] == pytest.approx(122e-6)
     assert table[5]["missed by"] == "V3 - V1: +307 %, allowed ±30 %"
-    assert data["rows"][9]["criteria"][0]["high"] is None  # no bound
+    assert data["rows"][9]["requirements"][0]["high"] is None  # no bound
+
+
+def test_the_paper_speaks_of_its_own_train_blade_and_bearing_only():
+    own, all_depths = load_scenario("paper"), ("v1", "v2", "v3")
+    assert speaks_of(own, all_depths) and not speaks_of(own, all_depths[:2])
+    numerics = {"end": 1.5, "step": 5e-5, "film": {"rows": 12}, "reduction": "guyan", "title": "Mine"}
+    assert speaks_of(with_overrides(own, numerics), all_depths)
+    for other in (
+        {"event": None},
+        {"event": {"unbalance": 200.0}},
+        {"analysed_bearing": "LP2-front"},
+        {"unbalance": {"grade": 6.3e-3}},
+    ):
+        assert not speaks_of(with_overrides(own, other), all_depths)
+    assert not speaks_of(load_scenario("small"), all_depths)
 
 
 def test_a_record_gives_its_known_figures():
@@ -185,7 +208,7 @@ def test_a_record_gives_its_known_figures():
     front = (time > 1.0) & (np.floor(time * 100) % 4 == 0)
     position = np.where(front, -0.32, 0.32)[:, None] * np.ones(record.sizes["bearing"])
     record["least_gap_position"] = (("time", "bearing"), position)
-    seen = observe(record, "v1", "LP2-front")
+    seen = read_run(record, "v1", "LP2-front")
     assert seen.after.ends == pytest.approx((0.25, 0.75), abs=0.01)
     assert seen.before.ends == pytest.approx((0.0, 1.0), abs=0.01)
     assert seen.before.bearing.least_gap_mean == pytest.approx(100e-6, rel=0.01)
@@ -199,6 +222,6 @@ def test_a_start_that_decays_shows_as_drift():
     record = synthetic_record.record("v2")
     decay = 1 + 0.2 * np.exp(-record["time"] / 0.05)
     record["least_gap"] = record["least_gap"] * decay
-    start = observe(record, "v2", "LP2-front").start
+    start = read_run(record, "v2", "LP2-front").start
     mean = 0.2 * 0.05 / 0.08 * (1 - np.exp(-0.08 / 0.05))
     assert start.drift == pytest.approx(1 / (1 + mean) - 1, abs=3e-3)

@@ -1,12 +1,10 @@
 """``bladeloss compare``: on the small train, with a finer check, with runs that die, with wrong input."""
 
+import csv
 import json
-import os
 import re
-import signal
 import subprocess
-import sysconfig
-from pathlib import Path
+import sys
 
 import pytest
 from rich.console import Console
@@ -15,11 +13,11 @@ from typer.testing import CliRunner
 from orchestrator import exit_status
 from orchestrator.cli.main import app
 from orchestrator.commands import compare as compare_command
-from orchestrator.commands.compare import CompareRequest, refine
+from orchestrator.commands.compare import CompareRequest
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record
 from orchestrator.scenario.file import load_scenario
-from orchestrator.study.paper.worker import Ended, simulate_task
+from orchestrator.study.compare import COMPARED, refine
 
 SHORT = """\
 title = "Short"
@@ -51,7 +49,7 @@ def compared(tmp_path_factory):
     """A short comparison with its check, as a user would start it."""
     folder = tmp_path_factory.mktemp("compare")
     (folder / "short.toml").write_text(SHORT)
-    command = [str(Path(sysconfig.get_path("scripts")) / "bladeloss"), "compare", "short.toml", "--check"]
+    command = [sys.executable, "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
     command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -61,8 +59,8 @@ def compared(tmp_path_factory):
 def test_a_comparison_leaves_table_figures_and_runs(compared):
     folder, said = compared
     runs = [f"{depth}/{name}" for depth in ("v1", "v2", "v3") for name in RUN]
-    others = ["comparison.csv", "comparison.json", "comparison.txt"]
-    expected = others + [f"figures/{name}" for name in FIGURES] + runs + [f"check/{name}" for name in runs]
+    others = ["comparison.csv", "comparison.json", "comparison.txt"] + [f"figures/{name}" for name in FIGURES]
+    expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/{run}")]
     assert files(folder / "out") == sorted(expected)
     assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]
     for depth in ("v1", "v2", "v3"):
@@ -78,50 +76,78 @@ def test_the_check_is_finer_and_told(compared):
     data = json.loads((folder / "out" / "comparison.json").read_text())
     assert data["settings"] == {"macro_step": 2e-4, "columns": 24, "film_rows": 4, "end": 0.05}
     assert data["check"]["settings"] == {"macro_step": 1e-4, "columns": 48, "film_rows": 8, "end": 0.05}
-    assert len(data["check"]["changes"]) == 14
     text = (folder / "out" / "comparison.txt").read_text()
     assert "Check: film 48 x 8, macro step 0.1 ms in place of film 24 x 4, macro step 0.2 ms" in text
-    force = next(item for item in data["check"]["changes"] if item["row"] == 1)
+    force = next(item for item in data["check"]["changes"] if item["figure"] == "bearing force, mean")
     assert 0 < abs(force["largest"]) < 1e-3  # the weight is the weight
 
 
-def test_the_table_is_computed_from_the_runs(compared):
+def test_depths_stand_beside_one_another(compared):
+    """Every figure is that of the run's own summary; differences are those to the first depth."""
     folder, _ = compared
     data = json.loads((folder / "out" / "comparison.json").read_text())
-    assert data["complete"] and data["analysed_bearing"] == "rear"
-    by_number = {row["number"]: row for row in data["rows"]}
-    for depth, criterion in zip(("v1", "v2", "v3"), by_number[1]["criteria"], strict=True):
+    assert data["complete"] and data["analysed_bearing"] == "rear" and "rows" not in data
+    found = {(row["phase"], row["figure"]): row for row in data["figures"]}
+    for depth in ("v1", "v2", "v3"):
         summary = json.loads((folder / "out" / depth / "summary.json").read_text())
-        (row,) = (r for r in summary["bearings"] if (r["bearing"], r["phase"]) == ("rear", "before"))
-        assert criterion["value"] == pytest.approx(row["force_mean"], rel=1e-12)
-    assert by_number[1]["verdict"] == "missed" and "another machine" in by_number[1]["reason"]
-    assert by_number[5]["criteria"][0]["value"] > 0  # the edge is nearer than the centre line
-    assert by_number[6]["criteria"][0]["value"] > by_number[5]["criteria"][0]["value"]
-    moments = {item["label"]: item["value"] for item in by_number[13]["criteria"]}
-    assert moments["moment V2"] == moments["moment V3"] == 0.0
+        for phase in ("before", "after"):
+            (row,) = (r for r in summary["bearings"] if (r["bearing"], r["phase"]) == ("rear", phase))
+            (shaft,) = (r for r in summary["shaft"] if r["phase"] == phase)
+            for figure, value in (
+                ("bearing force, mean", row["force_mean"]),
+                ("bearing force, largest", row["force_max"]),
+                ("least gap, smallest", row["least_gap_min"]),
+                ("time in solid contact", row["contact_share"]),
+                ("vibration amplitude, largest", shaft["amplitude_max"]),
+                ("normal stress, largest", shaft["stress_max"]),
+            ):
+                assert found[phase, figure]["values"][depth] == pytest.approx(value, rel=1e-12)
+    gap = found["before", "least gap, mean"]
+    values, differences = gap["values"], gap["differences"]
+    assert values["v1"] < values["v2"] < values["v3"]  # the edge is nearer than the centre line
+    assert differences == {d: pytest.approx(values[d] / values["v1"] - 1.0) for d in ("v2", "v3")}
+    moments = found["after", "bearing moment, largest"]
+    assert moments["values"]["v2"] == 0.0 and moments["differences"]["v3"] == -1.0
+    assert found["after", "time in solid contact"]["differences"]["v2"] is None  # of nothing
     assert [item["depth"] for item in data["conclusions"]] == ["v1", "v2", "v3"]
+    table = list(csv.DictReader((folder / "out" / "comparison.csv").open()))
+    assert [float(row["v2"]) for row in table] == pytest.approx(
+        [row["values"]["v2"] for row in data["figures"]]
+    )
+
+
+def test_another_machine_is_not_held_against_the_paper(compared):
+    folder, _ = compared
+    text = (folder / "out" / "comparison.txt").read_text()
+    assert text.startswith("Short: V1, V2, V3 beside one another\n")
+    for word in ("paper", "missed", "verdict", "150.0 N/mm²"):
+        assert word not in text
+    assert re.search(r"least gap, mean +\d+\.\d µm +\d+\.\d µm +\d+\.\d µm +\+\d\.\d % +\+\d\d\.\d %", text)
 
 
 def test_the_runs_start_in_their_steady_state(compared):
     """Static state plus linear unbalance response: the first revolution is like the last before the event."""
     folder, _ = compared
     data = json.loads((folder / "out" / "comparison.json").read_text())
-    for observation in data["observations"].values():
-        start = observation["start"]
+    for run in data["statistics"].values():
+        start = run["start"]
         assert start["first"] == pytest.approx({"start": 0.0, "end": 0.02})
         assert start["last"] == pytest.approx({"start": 0.02, "end": 0.04})
         assert start["mean_last"] == pytest.approx(start["mean_first"], rel=5e-3)
         assert start["harmonic_last"] == pytest.approx(start["harmonic_first"], rel=0.05)
 
 
-def dies_at_v2(task, connection, stop):
-    if task.name == "v2":
-        os.kill(os.getpid(), signal.SIGKILL)
-    simulate_task(task, connection, stop)
-
-
-def is_refused(_task, connection, _stop):
-    connection.send(Ended(Outcome.STEP_REFUSED.value, "front: the gap closed", "Smaller.", 0.0, 0.0))
+DIES_AT_V2 = """
+import os, signal, sys
+if "v2" in sys.argv:
+    os.kill(os.getpid(), signal.SIGKILL)
+from orchestrator.cli.main import main
+main()
+"""
+IS_REFUSED = """
+import sys
+sys.exit(print("error: step-refused (exit status 4): front: the gap closed", file=sys.stderr) or 4)
+"""
 
 
 @pytest.fixture
@@ -132,11 +158,12 @@ def here(compared, monkeypatch):
     return folder
 
 
-def run(tmp_path, work, **request):
-    """The command with another kind of work; its status, what it said, and what it said of errors."""
+def run(tmp_path, code, **request):
+    """The command with other code for its runs; its status, what it said, and what it said of errors."""
+    command = (sys.executable, "-c", code, "run")
     with (tmp_path / "said").open("w+") as said, (tmp_path / "errors").open("w+") as errors:
         consoles = Console(file=said, width=200), Console(file=errors, width=200)
-        status = compare_command.run(CompareRequest("short.toml", **request), *consoles, work=work)
+        status = compare_command.run(CompareRequest("short.toml", **request), *consoles, command=command)
         said.seek(0)
         errors.seek(0)
         return status, said.read(), errors.read()
@@ -144,7 +171,7 @@ def run(tmp_path, work, **request):
 
 def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
     out = tmp_path / "out"
-    status, said, errors = run(tmp_path, dies_at_v2, out=out, check=True)
+    status, said, errors = run(tmp_path, DIES_AT_V2, out=out, check=True)
     assert status == exit_status.PROCESS_DIED
     assert "v2 not finished: process-died" in errors and "SIGKILL" in errors
     assert "PARTIAL: V2 process-died" in said and "Check with" not in said
@@ -154,17 +181,27 @@ def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
     assert files(partial / "figures") == FIGURES
     data = json.loads((partial / "comparison.json").read_text())
     assert data["complete"] is False and data["runs"]["v2"]["outcome"] == "process-died"
-    verdicts = {row["number"]: row["verdict"] for row in data["rows"]}
-    assert verdicts[1] == verdicts[11] == "not evaluated" != verdicts[3]
+    assert all(set(row["values"]) == {"v1", "v2", "v3"} for row in data["figures"])
+    assert all(row["values"]["v2"] is None is not row["values"]["v3"] for row in data["figures"])
+    assert sorted(path.name for path in partial.iterdir() if path.is_dir()) == ["figures", "v1", "v3"]
     assert data["conclusions"][1]["action"] == "no conclusion"
 
 
 def test_runs_that_left_nothing_give_the_status_and_no_folder(here, tmp_path):
-    status, said, errors = run(tmp_path, is_refused, out=tmp_path / "out")
+    status, said, errors = run(tmp_path, IS_REFUSED, out=tmp_path / "out")
     assert status == exit_status.STATUS[Outcome.STEP_REFUSED]
     assert errors.count("step-refused at t = 0 s: front: the gap closed") == 3
-    assert "14 not evaluated of 14 rows" in said
+    assert said.count("no conclusion") == 3
     assert sorted(path.name for path in tmp_path.iterdir()) == ["errors", "said"]
+
+
+def test_depths_are_chosen(here, tmp_path):
+    out = tmp_path / "out"
+    arguments = ["compare", "short.toml", "--depth", "v3", "--depth", "v2", "--end", "0.045", "--no-figures"]
+    result = CliRunner().invoke(app, [*arguments, "--out", str(out)], env={"COLUMNS": "120"})
+    assert result.exit_code == 0, result.output
+    assert "V2, V3 beside one another" in result.output and "V3 to V2" in result.output
+    assert sorted(path.name for path in out.iterdir() if path.is_dir()) == ["v2", "v3"]
 
 
 def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
@@ -180,6 +217,7 @@ def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
         (["--rows", "20", "--check"], "film.rows = 40"),
         (["--out", "short.toml"], "is a file"),
         (["--jobs", "0"], "--jobs"),
+        (["--depth", "v9"], "--depth v9"),
     ],
 )
 def test_wrong_input_is_refused_before_anything_runs(here, arguments, named):
@@ -192,7 +230,9 @@ def test_wrong_input_is_refused_before_anything_runs(here, arguments, named):
 
 def test_help_tells_options_and_exit_statuses():
     text = CliRunner().invoke(app, ["compare", "--help"], env={"COLUMNS": "120", "TERM": "dumb"}).output
-    options = "--end --step --columns --rows --bearing --jobs --check --out --fmus --format --no-figures"
+    options = (
+        "--depth --end --step --columns --rows --bearing --jobs --check --out --fmus --format --no-figures"
+    )
     for option in options.split():
         assert option in text
     assert re.search(rf"\b{exit_status.PROCESS_DIED}  ", text)

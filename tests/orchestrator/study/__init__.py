@@ -1,0 +1,1 @@
+"""Comparing the depths, and the study of the paper."""
