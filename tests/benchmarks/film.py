@@ -14,7 +14,7 @@ import numpy as np
 from bearing_fmu.film import Film, make_film
 from bearing_fmu.parameters import BearingParameters
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever
-from tests.bearing_fmu.test_published_films import MISALIGNED, misaligned_error
+from tests.bearing_fmu.films.test_published_films import MISALIGNED, misaligned_error
 
 RESOLUTIONS = ((32, 6), (40, 8), (48, 8), (48, 10), (64, 8), (64, 10), (96, 12))
 OPEN = (0.2, -0.78, 0.05, 0.04)

@@ -8,7 +8,7 @@ the films lose what they get from the drive and from the lateral motion in shear
     films     integral of (T speed - F.v) dt = losses of the films and contacts
     together  drive:  W_unbalance + integral of T speed dt = W_damping + losses
 
-The balance of a film alone, at prescribed motions, is proved in tests/bearing_fmu/test_film_energy.py.
+The balance of a film alone, at prescribed motions, is proved in tests/bearing_fmu/films/test_film_energy.py.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from bearing_fmu.parameters import BearingParameters
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.work import Work
-from tests.bearing_fmu.test_film_energy import reynolds_losses, short_losses
+from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 
 GRAVITY = 9.80665
 UNBALANCE = 0.05  # kg m at the middle wheel: a sixth of what the lost blade leaves

@@ -19,8 +19,8 @@ from orchestrator.outcome import Outcome
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import to_text
 from tests.faults import fault
-from tests.orchestrator import synthetic_record
 from tests.orchestrator.oscillator import released
+from tests.orchestrator.results import synthetic_record
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
 STATE = r"last state of {}: eccentricity ratio [\d.e-]+, tilts \S+ and \S+ urad, least gap \S+ um"

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from bearing_fmu.film import FilmStatus
 from tests.bearing_fmu.bearings import force_unit, lever, plain, respond
-from tests.bearing_fmu.test_film_energy import reynolds_losses, short_losses
+from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 from tests.properties.journals import DEPTHS, bearings, film, positions, rates, speeds, turned
 
 ANY = st.floats(allow_nan=True, allow_infinity=True)

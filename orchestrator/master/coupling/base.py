@@ -39,7 +39,7 @@ class NotConverged(OrchestratorError):
 
 
 class Coupled(Protocol):
-    """What a scheme needs of a system of units; `System` and `tests.orchestrator.loop.Loop` are such."""
+    """What a scheme needs of a system of units; `System` is such, and any loop of the tests."""
 
     @property
     def graph(self) -> Graph:

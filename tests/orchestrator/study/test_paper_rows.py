@@ -17,7 +17,7 @@ from orchestrator.study.paper import published
 from orchestrator.study.paper.report import PaperReport, largest_change, speaks_of
 from orchestrator.study.paper.requirement import Requirement, Row, Verdict
 from orchestrator.study.paper.rows import rows
-from tests.orchestrator import synthetic_record
+from tests.orchestrator.results import synthetic_record
 from tests.orchestrator.study.paper_runs import FINE, SEAT, runs, spoiled
 
 LIMITS = Limits.of(SEAT, published.STRESS_LIMIT)

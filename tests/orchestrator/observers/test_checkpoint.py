@@ -1,0 +1,171 @@
+"""A run that is killed at any moment goes on from its checkpoint to the same record, bit for bit."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmus.build.builder import build
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.simulate import Execution, Stage, simulate
+from orchestrator.observers import checkpoint
+from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
+from orchestrator.outcome import Outcome
+from orchestrator.results.record_files import read_record
+from orchestrator.scenario.file import load_scenario, train_of
+from tests.faults import fault
+from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
+
+BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
+CASES = {
+    "plain": {},
+    "controlled": {"coupling": "gauss-seidel", "tolerance": 0.015},
+    "newton": {"coupling": "newton", "ledger": True},
+    "iqn-ils": {"coupling": "iqn-ils"},
+}
+
+
+@pytest.fixture(scope="module")
+def toy(toy_fmus, tmp_path_factory):
+    return toy_fmu_folder(toy_fmus, tmp_path_factory.mktemp("named"))
+
+
+class Killed(BaseException):
+    """What no code of the run handles."""
+
+
+def killed_at(instant):
+    def progress(stage, simulated):
+        if stage is Stage.RUN and simulated > instant:
+            raise Killed
+
+    return progress
+
+
+@pytest.mark.parametrize("change", CASES.values(), ids=CASES)
+def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_path):
+    interval = {"interval": 3e-3}
+    scenario = toy_scenario(tmp_path, event=BLADE, record=interval, **change)
+    whole = simulate(scenario, toy)
+    assert whole.outcome is Outcome.FINISHED, whole.message
+    assert (whole.counts.rejected > 0) == ("tolerance" in change)
+    folder = tmp_path / "saved"
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.013), Execution(Checkpoints(folder, 4e-3, {})))
+    saved = checkpoint.read(folder)
+    assert saved.time == pytest.approx(0.012)
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.025), Execution(Checkpoints(folder, 4e-3, {}), saved))
+    saved = checkpoint.read(folder)
+    result = simulate(scenario, toy, None, Execution(None, saved))
+    assert result.record.identical(whole.record)
+    assert (result.steps, result.evaluations) == (whole.steps, whole.evaluations)
+    assert result.counts == whole.counts
+
+
+def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
+    scenario = toy_scenario(tmp_path, event=BLADE)
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.0), Execution(Checkpoints(tmp_path / "saved", 1.0, {"a": 1})))
+    saved = checkpoint.read(tmp_path / "saved")
+    assert (saved.time, saved.about) == (0.0, {"a": 1})
+    assert [path.name for path in (tmp_path / "saved").iterdir()] == [checkpoint.FILE]
+    result = simulate(scenario, toy, None, Execution(None, saved))
+    assert result.record.identical(simulate(scenario, toy).record)
+
+
+@fault(
+    "machine",
+    "a full disk while a checkpoint is written",
+    "the checkpoint before stays whole",
+    guard="orchestrator.observers.checkpoint:write",
+)
+def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
+    path = tmp_path / checkpoint.FILE
+    checkpoint.write(path, {"version": 1, "about": {}, "time": 1.0}, {"x": np.arange(3.0)})
+    before = path.read_bytes()
+
+    def fail(*_args, **_kwargs):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(np, "savez", fail)
+    with pytest.raises(OSError, match="disk full"):
+        checkpoint.write(path, {"version": 1, "about": {}, "time": 2.0}, {})
+    assert path.read_bytes() == before
+    assert checkpoint.read(tmp_path).time == 1.0
+
+
+@fault(
+    "process",
+    "no checkpoint, or one of another version",
+    "exit 2; file, what it is and what is read",
+    guard="orchestrator.observers.checkpoint:read",
+)
+def test_missing_and_damaged_checkpoints_are_said(tmp_path):
+    with pytest.raises(CheckpointError, match="only a run with --checkpoint can be resumed"):
+        checkpoint.read(tmp_path)
+    (tmp_path / checkpoint.FILE).write_bytes(b"half a file")
+    with pytest.raises(CheckpointError, match="not a readable checkpoint"):
+        checkpoint.read(tmp_path)
+    checkpoint.write(tmp_path / checkpoint.FILE, {"version": 99}, {})
+    with pytest.raises(CheckpointError, match="of version 99"):
+        checkpoint.read(tmp_path)
+
+
+@fault(
+    "process",
+    "a checkpoint of other FMUs than those at hand",
+    "CheckpointError; FMU, its GUID and the one found",
+    guard="orchestrator.observers.checkpoint:Checkpoint.restore_units",
+)
+def test_a_checkpoint_of_other_fmus_is_refused(toy, tmp_path):
+    scenario = toy_scenario(tmp_path)
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.0), Execution(Checkpoints(tmp_path / "saved", 1.0, {})))
+    saved = checkpoint.read(tmp_path / "saved")
+    saved.meta["fmus"][0] = "another"
+    with pytest.raises(CheckpointError, match=r"made with another rotor_toy\.fmu \(another"):
+        simulate(scenario, toy, None, Execution(None, saved))
+
+
+def command(*arguments):
+    code = "import sys; from orchestrator.cli.main import main; sys.argv[0] = 'bladeloss'; main()"
+    root = Path(__file__).parents[3]
+    return subprocess.Popen(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": str(root)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+@pytest.mark.slow
+def test_kill_at_random_moments_of_the_small_train(tmp_path):
+    """Three times SIGKILL, wherever it strikes: in a step, a record, or the writing of a checkpoint."""
+    folder = tmp_path / "fmus"
+    build(folder, [train_of(load_scenario("small"))])
+    options = ["small", "--depth", "v2", "--end", "1.2", "--no-figures", "--fmus", folder]
+    assert command("run", *options, "--out", tmp_path / "whole").wait() == 0
+    out = tmp_path / "killed"
+    saved = checkpoint_folder(out) / checkpoint.FILE
+    process = command("run", *options, "--out", out, "--checkpoint", "0.005")
+    chance = random.Random(5)
+    for _ in range(3):
+        before = saved.stat().st_mtime_ns if saved.exists() else 0
+        while not (saved.exists() and saved.stat().st_mtime_ns > before) and process.poll() is None:
+            time.sleep(0.02)
+        time.sleep(chance.uniform(0.0, 0.4))
+        assert process.poll() is None
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        process = command("resume", out)
+    assert process.wait() == 0
+    assert read_record(out).identical(read_record(tmp_path / "whole"))
+    assert not saved.parent.exists()
+    assert Outcome.FINISHED.value == read_record(out).attrs["status"]
