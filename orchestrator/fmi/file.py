@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import re
 import shutil
 import tempfile
@@ -19,11 +20,12 @@ from orchestrator.errors import FmuError
 from orchestrator.fmi.archive import LIMITS, ArchiveError, Limits, extract
 from orchestrator.fmi.xml import XmlError, read_xml
 
-_SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+")
+# Others than these, and of Windows \ and :, make hosts of Python FMUs trip.
+_SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+" if os.name == "posix" else r"[A-Za-z0-9_./~:\\-]+")
+_FALLBACKS = ("/tmp", "/var/tmp")  # where TMPDIR has others; other systems keep their own folder
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Both are read by fmpy, which takes what XML can do.
 _DESCRIPTION, _SOURCES = "modelDescription.xml", "sources/buildDescription.xml"
-_FALLBACK = "/tmp"  # where TMPDIR has characters that hosts of Python FMUs trip over
 
 
 class FmuFile:
@@ -41,6 +43,8 @@ class FmuFile:
         The description's scalar variables by name.
     size : int
         Bytes that it holds extracted.
+    instances : int
+        How many live.
     memoryless : bool
         Whether it says that its outputs follow from its inputs alone, see `fmus.build.memoryless`.
 
@@ -69,13 +73,16 @@ class FmuFile:
             raise FmuError(f"{path}: {error}") from None
         except Exception as error:  # fmpy raises bare exceptions for a description that breaks the schema
             raise FmuError(f"{path}: not a valid FMU: {error}") from None
-        if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:
-            raise FmuError(f"{path}: not an FMI 2.0 co-simulation unit")
+        if self.description.fmiVersion != "2.0":
+            raise FmuError(f"{path}: not an FMI 2.0 co-simulation unit: FMI {self.description.fmiVersion}")
+        if self.description.coSimulation is None:
+            raise FmuError(f"{path}: not an FMI 2.0 co-simulation unit: for model exchange only")
         identifier = str(self.description.coSimulation.modelIdentifier)
         if not _IDENTIFIER.fullmatch(identifier):  # it names the library that is loaded
             raise FmuError(
                 f"{path}: modelIdentifier {identifier!r}; allowed are letters, digits and underscores"
             )
+        self.instances = 0
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
 
     @property
@@ -114,10 +121,9 @@ class FmuStore:
     """Extracts FMU files on demand into one temporary folder, and removes it at the end."""
 
     def __init__(self) -> None:
-        root = tempfile.gettempdir()
-        self._folder = Path(
-            tempfile.mkdtemp(prefix="bladeloss_", dir=root if _SAFE_PATH.fullmatch(root) else _FALLBACK)
-        )
+        roots = (tempfile.gettempdir(), *_FALLBACKS)
+        root = next((r for r in roots if _SAFE_PATH.fullmatch(r) and os.access(r, os.W_OK)), None)
+        self._folder = Path(tempfile.mkdtemp(prefix="bladeloss_", dir=root))
         self._files: dict[Path, FmuFile] = {}
         self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
 

@@ -92,6 +92,10 @@ class Unit:
             freeMemory=fmi2CallbackFreeMemoryTYPE(fmpy.free),
         )
         description = file.description
+        if file.instances and description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+            raise FmuError(
+                f"{file.path}: canBeInstantiatedOnlyOncePerProcess, and {name} would be a second instance"
+            )
         try:
             self._slave = FMU2Slave(
                 guid=description.guid,
@@ -103,6 +107,7 @@ class Unit:
         except Exception as error:  # fmpy raises bare exceptions here
             reason = "; ".join(self._messages) or str(error)
             raise FmuError(f"{file.path}: cannot be instantiated as {name}: {reason}") from None
+        file.instances += 1
         self._library = file.library
         self.component = ctypes.c_void_p(self._slave.component)
         self._do_step = (self._slave.dll if release_gil else self._library)["fmi2DoStep"]
@@ -129,6 +134,25 @@ class Unit:
     def failed(self) -> bool:
         """Whether a call ended with an error after which nothing more may be asked of the unit."""
         return self._worst >= Status.ERROR
+
+    def check_steps(self, step: float, end: float, halved: bool) -> None:
+        """Refuse steps of unlike length for a unit that cannot take them: a shorter last one, or `halved` ones.
+
+        Raises
+        ------
+        FmuError
+            Naming the flag.
+        """
+        uneven = abs(end / step - round(end / step)) > 1e-9 * end / step
+        if (
+            uneven or halved
+        ) and not self.file.description.coSimulation.canHandleVariableCommunicationStepSize:
+            why = (
+                "a tolerance halves steps"
+                if halved
+                else f"end = {end!r} s is no multiple of step = {step!r} s"
+            )
+            raise FmuError(f"{self.file.path}: canHandleVariableCommunicationStepSize is false, but {why}")
 
     def variable(self, name: str) -> Any:
         """Return the description of a variable.
@@ -263,4 +287,5 @@ class Unit:
                 self._call("terminate")
         if self._worst < Status.FATAL:
             self._slave.freeInstance()
+            self.file.instances -= 1
         self._slave.component = None

@@ -52,6 +52,7 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, thre
         system.bearing_group.employ(threads)
         system.rotor.set_parameters(rotor_parameters(scenario, train))
         for unit, seat in zip(system.bearings, train.bearings, strict=True):
+            unit.check_steps(scenario.step, scenario.end, scenario.tolerance is not None)
             values = bearing_parameters(seat, scenario.film)  # a user's own bearing may do without some
             unit.set_parameters({name: x for name, x in values.items() if name in unit.file.variables})
         system.set_speed(train.speed)

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from fmus import port
-from fmus.port.variable import Value
+from fmus.port.variable import UNITS, Value
 from orchestrator.errors import FmuError
 from orchestrator.fmi.archive import ArchiveError, inside
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.master.graph import Connection
 from orchestrator.master.system import Wiring, port_connections
 from orchestrator.ssp.structure import Component, SspError, Structure
+from orchestrator.ssp.units import definition
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import likely
 
@@ -73,6 +74,8 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     except (ArchiveError, FmuError) as error:
         text = str(error).removeprefix(f"{path}: ").replace(f"{folder.resolve()}/", "")
         raise SspError(f"{path}: {text}") from None
+    components = tuple(_in_units(c, files[c.name], path) for c in structure.components)
+    structure = replace(structure, components=components)
     marker = port.at_bearing(1, port.JOURNAL[0])
     rotors = [c for c in structure.components if marker in files[c.name].variables]
     if len(rotors) != 1:
@@ -86,6 +89,22 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
         raise SspError(f"{path}: {', '.join(sorted(surplus))}: joined to no bearing of {rotor.name}")
     wiring = _wiring(structure, rotor, bearings, path)
     return Contents(structure, train, rotor, bearings, files, wiring)
+
+
+def _in_units(component: Component, file: FmuFile, path: Path) -> Component:
+    """Convert the values that the SSP gives a component to the units of its FMU."""
+    known = {u.name: definition(u.name, u.baseUnit) for u in file.description.unitDefinitions}
+    values: dict[str, Value] = {}
+    for name, given in component.given.items():
+        variable = file.variables.get(name)
+        unit = (variable.unit or "") if variable else ""
+        try:
+            values[name] = given.in_unit(
+                known.get(unit) or definition(unit, vars(UNITS[unit]) if unit in UNITS else None)
+            )
+        except ValueError as error:
+            raise SspError(f"{path}: {component.name}: {name} = {given.value!r}: {error}") from None
+    return replace(component, parameters=values)
 
 
 def _train(file: FmuFile, path: Path) -> Train:

@@ -14,7 +14,7 @@ from orchestrator.fmi.file import FmuFile
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import Wiring
 from orchestrator.scenario.file import replaced
-from orchestrator.scenario.problems import shape_problems, time_problems
+from orchestrator.scenario.problems import shape_problems, time_problems, unbalance_problems
 from orchestrator.scenario.scenario import DEPTHS, Scenario
 from orchestrator.ssp.contents import Contents, value_of
 from orchestrator.ssp.structure import SspError
@@ -99,7 +99,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         scenario = Scenario(**values)
     except ValidationError as error:
         raise ScenarioError(str(path), [text for _, text in shape_problems(error)]) from None
-    problems = [text for _, text in time_problems(scenario, train)]
+    problems = [text for _, text in (*time_problems(scenario, train), *unbalance_problems(scenario, train))]
     problems += _speed_problems(contents)
     problems += _film_problems(contents)
     if problems:
@@ -162,8 +162,8 @@ def _event(contents: Contents, end: float) -> dict[str, Any] | None:
     """The fracture before the end; of several wheels that with the largest unbalance."""
     lost, phases = (_wheel_values(contents, f"blade_{key}") for key in ("unbalance", "phase"))
     time = float(value_of(contents, contents.rotor, "fracture.time"))
-    largest = max(range(len(lost)), key=lost.__getitem__, default=-1)
-    if not (largest >= 0 and lost[largest] > 0.0 and time < end):
+    largest = max(range(len(lost)), key=lambda j: abs(lost[j]), default=-1)
+    if not (largest >= 0 and lost[largest] != 0.0 and time < end):
         return None
     wheel = contents.train.wheels[largest].name
     return {"wheel": wheel, "unbalance": lost[largest], "phase": phases[largest], "time": time}

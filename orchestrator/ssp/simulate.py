@@ -132,6 +132,7 @@ def _assemble(contents: Contents, scenario: Scenario, path: Path, threads: int) 
         system = System(units[0], units[1:], contents.wiring)
         system.bearing_group.employ(threads)
         for unit, component in zip(units, components, strict=True):
+            unit.check_steps(scenario.step, scenario.end, scenario.tolerance is not None)
             unit.set_parameters(parameters(component, unit.file, path))
         if scenario.ledger:
             units[0].set_parameters({"track_work": True})

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fmus.port.variable import Value
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.graph import Connection
+from orchestrator.ssp.units import Given
 
 ROTOR = "rotor"
 """Name of the rotor's component, and of its unit."""
@@ -47,7 +48,9 @@ class Component:
     connectors : tuple of Connector
         In the order of the FMU.
     parameters : mapping
-        Start values of inputs and parameters by name.
+        Start values of inputs and parameters by name, in the FMU's units.
+    given : mapping
+        The same as read, before the FMU's units are known.
     """
 
     name: str
@@ -55,6 +58,7 @@ class Component:
     description: str = ""
     connectors: tuple[Connector, ...] = ()
     parameters: Mapping[str, Value] = field(default_factory=dict)
+    given: Mapping[str, Given] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,280 @@
+"""SSPs as other tools write them: units, mappings, transformations, connectors of systems, inner systems."""
+
+import re
+from zipfile import ZIP_DEFLATED, ZipFile
+
+import pytest
+
+from orchestrator.errors import FmuError
+from orchestrator.ssp.reader import read_ssp
+from orchestrator.ssp.simulate import SspRun
+from orchestrator.ssp.structure import SspError
+from tests.orchestrator.foreign import refused
+
+SSD = "SystemStructure.ssd"
+BINDING = '<ssd:ParameterBinding type="application/x-ssp-parameter-set" source="resources/front.ssv" />'
+MS = '<ssc:Unit name="ms"><ssc:BaseUnit s="1" factor="0.001" /></ssc:Unit>'
+POISE = '<ssc:Unit name="P"><ssc:BaseUnit kg="1" m="-1" s="-1" factor="0.1" /></ssc:Unit>'
+KELVIN = '<ssc:Unit name="K"><ssc:BaseUnit K="1" /></ssc:Unit>'
+
+
+def edited(source, target, changes):
+    """Copy an archive with texts of its members replaced once each; a pattern is a regular expression."""
+    with ZipFile(source) as archive, ZipFile(target, "w", ZIP_DEFLATED) as out:
+        for name in archive.namelist():
+            content = archive.read(name)
+            for old, new in changes.get(name, ()):
+                text, count = re.subn(old, lambda _, new=new: new, content.decode(), count=1, flags=re.DOTALL)
+                assert count == 1, old
+                content = text.encode()
+            out.writestr(name, content)
+    return target
+
+
+def real(name, value, unit=""):
+    attribute = f' unit="{unit}"' if unit else ""
+    return f'<ssv:Parameter name="{name}"><ssv:Real value="{value}"{attribute} /></ssv:Parameter>'
+
+
+def stated(name):
+    return rf'<ssv:Parameter name="{re.escape(name)}">.*?</ssv:Parameter>'
+
+
+def values_of(path, component):
+    with SspRun(path) as prepared:
+        contents = prepared._contents
+        return {c.name: c for c in contents.structure.components}[component].parameters, prepared.scenario
+
+
+def with_parameter(small_ssp, tmp_path, component, name, text, units=""):
+    changes = [(stated(name), text)]
+    if units:
+        changes.append(("</ssv:Parameters>", f"</ssv:Parameters><ssv:Units>{units}</ssv:Units>"))
+    return edited(small_ssp, tmp_path / "my.ssp", {f"resources/{component}.ssv": changes})
+
+
+def test_units_are_converted_by_their_definitions(small_ssp, tmp_path):
+    path = with_parameter(small_ssp, tmp_path, "front", "viscosity", real("viscosity", 0.12, "P"), POISE)
+    assert values_of(path, "front")[0]["viscosity"] == pytest.approx(0.012, rel=1e-15)
+    path = with_parameter(small_ssp, tmp_path, "rotor", "fracture.time", real("fracture.time", 5, "ms"), MS)
+    assert values_of(path, "rotor")[0]["fracture.time"] == pytest.approx(5e-3, rel=1e-15)
+    path = with_parameter(small_ssp, tmp_path, "front", "viscosity", real("viscosity", 0.0125, "Pa.s"))
+    assert values_of(path, "front")[0]["viscosity"] == 0.0125  # the FMU's own unit needs no definition
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "units", "words"),
+    [
+        (
+            "viscosity",
+            real("viscosity", 0.12, "P"),
+            "",
+            "front: viscosity = 0.12: unit 'P' is defined nowhere",
+        ),
+        (
+            "viscosity",
+            real("viscosity", 0.12, "K"),
+            KELVIN,
+            "front: viscosity = 0.12: 'K' is no unit of 'Pa.s'",
+        ),
+        (
+            "viscosity",
+            2 * real("viscosity", 0.012),
+            "",
+            "parameter viscosity stands twice in one parameter set",
+        ),
+    ],
+)
+def test_values_that_could_mean_anything_are_refused(
+    name, text, units, words, small_ssp, small_fmus, room, tmp_path
+):
+    assert words in refused(with_parameter(small_ssp, tmp_path, "front", name, text, units), room, small_fmus)
+
+
+@pytest.mark.parametrize(
+    ("blade", "words"),
+    [(3000.0, "event.unbalance = 3000.0; allowed is at most"), (-0.3, "event.unbalance = -0.3; allowed is")],
+)
+def test_a_blade_has_the_limits_of_a_scenario(blade, words, small_ssp, small_fmus, room, tmp_path):
+    name = "wheel[1].blade_unbalance"
+    changes = [(stated(name), real(name, blade)), (stated("fracture.time"), real("fracture.time", 0.001))]
+    path = edited(small_ssp, tmp_path / "my.ssp", {"resources/rotor.ssv": changes})
+    assert words in refused(path, room, small_fmus)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('stopTime="[^"]*"', 'stopTime="0"', "stopTime = '0'; allowed is a number above 0"),
+        ('stopTime="[^"]*"', 'stopTime="INF"', "stopTime = 'INF'; allowed"),
+        ('baseStepSize="[^"]*"', 'baseStepSize="0"', "baseStepSize = '0'; allowed is a number above 0"),
+        ('startTime="[^"]*"', 'startTime="0.1"', "startTime = 0.1; allowed is 0"),
+        (' version="1.0"', ' version="3.0"', "SSP version '3.0'; allowed are 1.0 and 2.0"),
+        (
+            'implementation="CoSimulation"',
+            'implementation="ModelExchange"',
+            "'ModelExchange'; allowed is CoSim",
+        ),
+        ("application/x-fmu-sharedlibrary", "application/x-ssp-package", "component of type"),
+        (
+            '(?=startConnector="F0.Fx")',
+            'suppressUnitConversion="maybe" ',
+            None,
+        ),
+    ],
+)
+def test_the_definition_counts_or_is_refused(old, new, words, small_ssp, small_fmus, room, tmp_path):
+    path = edited(small_ssp, tmp_path / "my.ssp", {SSD: [(old, new)]})
+    if words is None:
+        with SspRun(path):
+            return
+    assert words in refused(path, room, small_fmus)
+
+
+def test_version_2_is_read_and_named_where_something_is_refused(small_ssp, tmp_path):
+    path = edited(small_ssp, tmp_path / "two.ssp", {SSD: [(' version="1.0"', ' version="2.0"')]})
+    with SspRun(path) as prepared:
+        assert prepared.scenario.end == 0.01
+    changes = [(' version="1.0"', ' version="2.0"'), ("x-fmu-sharedlibrary", "x-ssp-package")]
+    path = edited(small_ssp, tmp_path / "two.ssp", {SSD: changes})
+    with pytest.raises(SspError, match=r"component of type .* \(SSP version 2.0\)"):
+        SspRun(path)
+
+
+def test_mapped_parameters(small_ssp, tmp_path):
+    """Viscosity in mPa s, renamed, with suppressed units and a factor; a name that is not mapped stays."""
+    mapping = (
+        "<ssd:ParameterMapping><ssm:ParameterMapping xmlns:ssm="
+        '"http://ssp-standard.org/SSP1/SystemStructureParameterMapping" version="1.0">'
+        '<ssm:MappingEntry source="eta" target="viscosity" suppressUnitConversion="true">'
+        '<ssc:LinearTransformation factor="0.001" offset="0.001" /></ssm:MappingEntry>'
+        "</ssm:ParameterMapping></ssd:ParameterMapping>"
+    )
+    binding = BINDING.replace(" />", f">{mapping}</ssd:ParameterBinding>")
+    changes = {
+        SSD: [(re.escape(BINDING), binding)],
+        "resources/front.ssv": [(stated("viscosity"), real("eta", 14.0, "mPas"))],
+    }
+    with SspRun(small_ssp) as plain:
+        diameter = {c.name: c for c in plain._contents.structure.components}["front"].parameters["diameter"]
+    values, _ = values_of(edited(small_ssp, tmp_path / "my.ssp", changes), "front")
+    assert values["viscosity"] == pytest.approx(0.015, rel=1e-15) and values["diameter"] == diameter
+
+
+def with_inner_system(text, extra="", changes=()):
+    """Move the component `front` into a system `casing`, whose connectors pass everything on."""
+    (component,) = re.findall(r'<ssd:Component name="front".*?</ssd:Component>', text, flags=re.DOTALL)
+    connectors = re.search(r"<ssd:Connectors>.*?</ssd:Connectors>", component, flags=re.DOTALL)[0]
+    inner = []
+    for name, kind in re.findall(r'<ssd:Connector name="([^"]*)" kind="(\w+)"', connectors):
+        ends = [("", name), ("front", name)] if kind == "input" else [("front", name), ("", name)]
+        start, end = (
+            f'{side}Element="{e}" ' if e else "" for side, (e, _) in zip(("start", "end"), ends, strict=True)
+        )
+        inner.append(f'<ssd:Connection {start}startConnector="{name}" {end}endConnector="{name}" />')
+    wires = "".join(inner)
+    for old, new in changes:
+        assert old in wires
+        wires = wires.replace(old, new, 1)
+    system = (
+        f'<ssd:System name="casing">{connectors}{extra}<ssd:Elements>{component}</ssd:Elements>'
+        f"<ssd:Connections>{wires}</ssd:Connections></ssd:System>"
+    )
+    text = text.replace(component, system)
+    return (
+        text.replace('startElement="front"', 'startElement="casing"', 10**6)
+        .replace('endElement="front"', 'endElement="casing"')
+        .replace(wires.replace('Element="front"', 'Element="casing"'), wires)
+    )
+
+
+def nested(small_ssp, tmp_path, **options):
+    with ZipFile(small_ssp) as archive:
+        text = archive.read(SSD).decode()
+    return edited(
+        small_ssp, tmp_path / "nested.ssp", {SSD: [(re.escape(text), with_inner_system(text, **options))]}
+    )
+
+
+def test_an_inner_system_is_the_same_system(small_ssp, tmp_path):
+    plain = read_ssp(small_ssp, tmp_path / "a")
+    inner = read_ssp(nested(small_ssp, tmp_path), tmp_path / "b")
+    assert {c.name for c in inner.components} == {
+        c.name.replace("front", "casing.front") for c in plain.components
+    }
+    renamed = {(c.source, c.output, c.target, c.input) for c in inner.connections}
+    assert {tuple(x.replace("casing.front", "front") for x in c) for c in renamed} == {
+        (c.source, c.output, c.target, c.input) for c in plain.connections
+    }
+    with SspRun(nested(small_ssp, tmp_path)) as prepared:
+        assert [c.name for c in prepared._contents.bearings] == ["casing.front", "rear"]
+
+
+def inline(*parameters):
+    return (
+        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet "
+        'xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="p">'
+        f"<ssv:Parameters>{''.join(parameters)}</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
+        "</ssd:ParameterBinding></ssd:ParameterBindings>"
+    )
+
+
+def test_values_of_a_system_win_and_travel_through_its_connectors(small_ssp, tmp_path):
+    extra = inline(real("front.viscosity", 0.017), real("journal.x", 1e-6))
+    values, _ = values_of(nested(small_ssp, tmp_path, extra=extra), "casing.front")
+    assert values["viscosity"] == 0.017 and values["journal.x"] == 1e-6
+    with pytest.raises(SspError, match=r"casing: parameter front_viscosity belongs to nothing"):
+        SspRun(nested(small_ssp, tmp_path, extra=inline(real("front_viscosity", 0.017))))
+
+
+def test_signals_must_travel_as_they_are(small_ssp, tmp_path):
+    wire = '<ssd:Connection startElement="front" startConnector="F0.Fx" endConnector="F0.Fx" />'
+    scaled = wire.replace(" />", '><ssc:LinearTransformation factor="{}" /></ssd:Connection>')
+    path = nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1000"))])
+    words = r"casing.front.F0.Fx -> rotor.bearing\[1\].F0.Fx: by transformation or units x comes as 1000 x"
+    with pytest.raises(SspError, match=words):
+        SspRun(path)
+    with SspRun(nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1.0"))])):
+        pass
+
+
+def flagged(small_ssp, tmp_path, old, new, **changes):
+    """The SSP with another flag in its bearing's FMU."""
+    with ZipFile(small_ssp) as archive:
+        member = "resources/bearing_v3.fmu"
+        (tmp_path / "b.fmu").write_bytes(archive.read(member))
+        changed = edited(tmp_path / "b.fmu", tmp_path / "c.fmu", {"modelDescription.xml": [(old, new)]})
+        with ZipFile(tmp_path / "flagged.ssp", "w", ZIP_DEFLATED) as out:
+            for name in archive.namelist():
+                out.writestr(name, changed.read_bytes() if name == member else archive.read(name))
+    return edited(tmp_path / "flagged.ssp", tmp_path / "my.ssp", changes)
+
+
+def test_a_unit_for_one_instance_serves_one_bearing(small_ssp, tmp_path):
+    new = '<CoSimulation canBeInstantiatedOnlyOncePerProcess="true" '
+    with (
+        SspRun(flagged(small_ssp, tmp_path, "<CoSimulation ", new)) as prepared,
+        pytest.raises(FmuError) as info,
+    ):
+        prepared.simulate()
+    assert "canBeInstantiatedOnlyOncePerProcess, and rear would be a second instance" in str(info.value)
+
+
+def test_a_unit_of_even_steps_gets_even_steps(small_ssp, tmp_path):
+    flag = "canHandleVariableCommunicationStepSize="
+    path = flagged(small_ssp, tmp_path, f'{flag}"true"', f'{flag}"false"')
+    with SspRun(path, {"end": 0.01005}) as prepared, pytest.raises(FmuError, match="no multiple of step"):
+        prepared.simulate()
+    with (
+        SspRun(path, {"tolerance": 0.1}) as prepared,
+        pytest.raises(FmuError, match="a tolerance halves steps"),
+    ):
+        prepared.simulate()
+    with SspRun(path, {"end": 0.001}) as prepared:
+        assert prepared.simulate().record is not None
+
+
+def test_a_unit_for_model_exchange_only_is_named(small_ssp, tmp_path):
+    path = flagged(small_ssp, tmp_path, "<CoSimulation .*?/>", '<ModelExchange modelIdentifier="x" />')
+    with pytest.raises(SspError, match=r"not an FMI 2.0 co-simulation unit: for model exchange only"):
+        SspRun(path)
