@@ -136,7 +136,7 @@ class Unit:
         return self._worst >= Status.ERROR
 
     def check_steps(self, step: float, end: float, halved: bool) -> None:
-        """Refuse steps of unlike length for a unit that cannot take them: a shorter last one, or `halved` ones.
+        """Refuse steps of unlike length, the last or `halved` ones, for a unit that cannot take them.
 
         Raises
         ------
