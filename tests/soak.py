@@ -19,7 +19,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fmus.build.builder import build
-from orchestrator.case.simulate import Stage, simulate
+from orchestrator.case.progress import Stage
+from orchestrator.case.simulate import simulate
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 

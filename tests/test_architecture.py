@@ -34,23 +34,13 @@ ROOMS = (
 """The rooms of the orchestrator: each imports from those below it, and all from the files beside them."""
 
 UPWARDS = {
-    ("orchestrator.case.checkpoint_folder", "orchestrator.commands.run"),
-    ("orchestrator.fmi.watchdog", "orchestrator.results.result"),
-    ("orchestrator.master.interrupt", "orchestrator.results.result"),
-    ("orchestrator.master.time_loop", "orchestrator.observers.ledger"),
-    ("orchestrator.master.time_loop", "orchestrator.observers.recorder"),
-    ("orchestrator.results.summary", "orchestrator.case.simulate"),
-    ("orchestrator.ssp.simulate", "orchestrator.case.simulate"),
     ("fmus.build.builder", "rotor_fmu.start_values"),
     ("fmus.build.builder", "rotor_fmu.train.train"),
     ("fmus.build.own", "rotor_fmu.train.train"),
 }
-CIRCLES = {
-    ("orchestrator.commands.run", "orchestrator.commands.run_ssp"),
-    ("orchestrator.results.summary", "orchestrator.results.certificate"),
-}
+CIRCLES: set[tuple[str, str]] = set()
 LONG_FILES = {"fmus/unit/slave.py"}
-LONG_FUNCTIONS = {"orchestrator.case.simulate:carry_out"}
+LONG_FUNCTIONS: set[str] = set()
 
 # Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time
 # for a unit to step in.

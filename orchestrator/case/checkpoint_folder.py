@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from orchestrator.observers.checkpoint import Checkpoints
-from orchestrator.scenario.file import scenario_toml
-
-if TYPE_CHECKING:
-    from orchestrator.commands.run import RunRequest
-    from orchestrator.scenario.scenario import Scenario
+from orchestrator.case.case import Case
+from orchestrator.case.request import RunRequest
+from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints
 
 SUFFIX = "-checkpoint"
 
@@ -23,33 +20,50 @@ def checkpoint_folder(folder: Path) -> Path:
 
 
 def checkpoints(
-    scenario: Scenario,
-    request: RunRequest,
-    folder: Path,
-    trusted: Sequence[str] = (),
-    warn: Callable[[str], None] = print,
+    case: Case, request: RunRequest, folder: Path, warn: Callable[[str], None] = print
 ) -> Checkpoints | None:
-    """What writes the checkpoints that a request asks for, with all that is needed to go on.
-
-    Digests of FMUs that the user has agreed to run are kept, so that a resumed run need not ask.
-    """
+    """What writes the checkpoints that a request asks for, with all that is needed to go on."""
     if request.checkpoint is None:
         return None
     about: dict[str, Any] = {
-        "scenario": scenario_toml(scenario),
-        "scenario_folder": str(scenario.folder.absolute()),
-        "source": request.source,
-        "folder": str(folder.absolute()),
+        **case.about,
+        "source": str(Path(request.source).absolute()) if request.is_ssp else request.source,
         "fmus": str(request.fmus.absolute()),
         "bearing": request.bearing,
         "formats": list(request.formats),
         "every": request.checkpoint,
         "certify": request.certify,
         "threads": request.threads,
-        "trusted": list(trusted),
         "budget": request.budget,
     }
     return Checkpoints(checkpoint_folder(folder), request.checkpoint, about, warn)
+
+
+def request_of(saved: Checkpoint, folder: Path, *, trust: bool) -> RunRequest:
+    """Return the request of a saved run whose results go to `folder`.
+
+    Raises
+    ------
+    CheckpointError
+        When something is missing.
+    """
+    about = saved.about
+    try:
+        return RunRequest(
+            about["source"],
+            about.get("overrides", {}),
+            out=folder,
+            fmus=Path(about["fmus"]),
+            bearing=about["bearing"],
+            formats=tuple(about["formats"]),
+            checkpoint=about["every"],
+            certify=about["certify"],
+            threads=about["threads"],
+            trust=trust,
+            budget=about["budget"],
+        )
+    except KeyError as error:
+        raise CheckpointError(f"{saved.path}: {error} is missing") from None
 
 
 def discard(folder: Path) -> None:

@@ -5,11 +5,25 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from enum import StrEnum
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
+from rich.progress import BarColumn, SpinnerColumn, TextColumn
+from rich.progress import Progress as Bars
 
-from orchestrator.case.simulate import Stage
+
+class Stage(StrEnum):
+    """What a run is busy with; the value is fit for display."""
+
+    LOAD = "loading FMUs"
+    WARM_UP = "first evaluation"  # long where numba has to compile the films, once per installation
+    EQUILIBRIUM = "static equilibrium"
+    RUN = "time loop"
+
+
+Progress = Callable[[Stage, float], None]
+"""Called with the stage and the simulated time in s: once at the start of each stage, then after every
+macro step of `Stage.RUN` (the callee decides how often it redraws)."""
 
 REDRAW = 0.2
 """Least wall time between two redraws [s]."""
@@ -60,7 +74,7 @@ def _duration(seconds: float) -> str:
 
 
 @contextmanager
-def show_progress(end: float, console: Console) -> Iterator[Callable[[Stage, float], None]]:
+def show_progress(end: float, console: Console) -> Iterator[Progress]:
     """Show a run's progress on a console.
 
     Parameters
@@ -73,7 +87,7 @@ def show_progress(end: float, console: Console) -> Iterator[Callable[[Stage, flo
     Yields
     ------
     callable
-        To be handed to `orchestrator.case.simulate.simulate` as its ``progress``.
+        To be handed to `orchestrator.case.simulate.execute` as its ``progress``.
     """
     if not console.is_terminal:
         yield _Lines(end, console)
@@ -84,14 +98,14 @@ def show_progress(end: float, console: Console) -> Iterator[Callable[[Stage, flo
         BarColumn(),
         TextColumn("{task.fields[pace]}"),
     )
-    with Progress(*columns, console=console, transient=True, auto_refresh=False) as bar:
+    with Bars(*columns, console=console, transient=True, auto_refresh=False) as bar:
         yield _Bar(end, bar)
 
 
 class _Bar:
     """A rich progress bar, redrawn a few times a second from the time loop itself."""
 
-    def __init__(self, end: float, bar: Progress) -> None:
+    def __init__(self, end: float, bar: Bars) -> None:
         self._pace = Pace(end)
         self._bar = bar
         self._task = bar.add_task("", total=None, pace="")

@@ -1,41 +1,41 @@
-"""From a scenario and a folder of FMUs to a record: the entry point of command line and tests."""
+"""From a case to a record: units loaded, a start found, the time loop, the record."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from copy import copy
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
+from orchestrator.case.case import Case, folder_case
+from orchestrator.case.progress import Progress, Stage
 from orchestrator.errors import EquilibriumError
-from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import UnitError
-from orchestrator.master.assembly import assemble
+from orchestrator.fmi.watchdog import Watchdog
+from orchestrator.master.assembly import join
 from orchestrator.master.coupling import SCHEMES, make_scheme
 from orchestrator.master.journal_in_words import with_state
 from orchestrator.master.observer import Observer
-from orchestrator.master.start.equilibrium import Start, begin, find_start
+from orchestrator.master.start.equilibrium import Start, begin
 from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
-from orchestrator.master.time_loop import Course, run
-from orchestrator.observers.checkpoint import Keeper, Saver
+from orchestrator.master.threads import one_blas_thread
+from orchestrator.master.time_loop import Course, RunEnd, run
+from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, Saver
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
 from orchestrator.results.ledger import with_ledger
 from orchestrator.results.record import empty_record, make_record, outcome_attributes
-from orchestrator.results.result import Execution, Progress, Result, Stage, Stopwatch, Timing
+from orchestrator.results.result import Result, Stopwatch, Timing
 from orchestrator.results.validity import unresolved
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
-
-__all__ = ["Execution", "Progress", "Result", "Stage", "Stopwatch", "Timing", "carry_out", "simulate"]
-
-_NO_TIME = Timing(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 QUICK_DEPTHS = ("v2", "v3")
 """Films of some microseconds, which threads would only delay."""
@@ -44,17 +44,43 @@ WORTH_A_THREAD = 4
 """Bearings with a slow film from which a second thread gains more than its handing over costs."""
 
 
+@dataclass(frozen=True)
+class Execution:
+    """How a run is carried out, without influence on its numbers.
+
+    Attributes
+    ----------
+    checkpoints : Checkpoints or None
+        Writes the run to disk as it goes.
+    resume : Checkpoint or None
+        Where to go on instead of at the start.
+    threads : int
+        On which the bearings step.
+    watchdog : Watchdog
+        Ends the run when a unit hangs; asleep by itself, and of one run.
+    """
+
+    checkpoints: Checkpoints | None = None
+    resume: Checkpoint | None = None
+    threads: int = 1
+    watchdog: Watchdog[Result] = field(default_factory=Watchdog)
+
+
 def simulate(
     scenario: Scenario, fmus: Path, progress: Progress | None = None, execution: Execution | None = None
 ) -> Result:
-    """Run a scenario on FMUs.
+    """Run a scenario on the FMUs in a folder, see `execute`."""
+    with folder_case(scenario, train_of(scenario), fmus) as case:
+        return execute(case, progress, execution)
+
+
+def execute(case: Case, progress: Progress | None = None, execution: Execution | None = None) -> Result:
+    """Run a case.
 
     Parameters
     ----------
-    scenario : Scenario
-        From `orchestrator.scenario.file.load_scenario`.
-    fmus : Path
-        Folder with the rotor FMU of the scenario's train and the bearing FMUs of its depths.
+    case : Case
+        From `orchestrator.case.case` or `orchestrator.case.prepare`.
     progress : callable, optional
         See `Progress`.
     execution : Execution, optional
@@ -67,34 +93,26 @@ def simulate(
 
     Raises
     ------
-    FmuError
-        When an FMU is missing or cannot be instantiated.
-    PortError
-        When an FMU does not carry the port.
+    FmuError, PortError, SspError
+        When an FMU is missing, cannot be instantiated, lacks the port or does not take its parameters.
     CheckpointError
         When a checkpoint to go on from belongs to other FMUs.
     """
     announce = progress or (lambda _stage, _time: None)
-    execution = execution or Execution()  # one a run: its watchdog holds on to what the run uses
-    train = train_of(scenario)
+    execution = execution or Execution()
+    watchdog, store = execution.watchdog, case.units.store
+    watchdog.partial = partial(_failed_start, case, Outcome.UNIT_HUNG)
+    watchdog.units, watchdog.remove = store.instances, store.remove
     clock = Stopwatch()
-    with FmuStore() as store:
-        execution.watchdog.partial = partial(failed_start, scenario, train, Outcome.UNIT_HUNG)
-        execution.watchdog.leftovers.append(store.remove)
+    with one_blas_thread():
         announce(Stage.LOAD, 0.0)
-        system = assemble(scenario, train, fmus, store, execution.threads)
+        parts = case.units.parts(case.scenario)
+        system = join(parts, case.scenario, case.units.speed, case.units.place, execution.threads)
         try:
-            return carry_out(
-                scenario,
-                train,
-                system,
-                lambda: find_start(system, train.bearings, train.speed, train.nodes),
-                clock,
-                announce,
-                execution,
-            )
+            result = _carry_out(case, system, clock, announce, execution)
         finally:
             system.close()
+    return replace(result, record=result.record.assign_attrs(case.attributes))
 
 
 def default_threads(scenario: Scenario, train: Train) -> int:
@@ -103,118 +121,31 @@ def default_threads(scenario: Scenario, train: Train) -> int:
     return 2 if slow >= WORTH_A_THREAD and (os.cpu_count() or 1) > 1 else 1
 
 
-def carry_out(
-    scenario: Scenario,
-    train: Train,
-    system: System,
-    find: Callable[[], Start],
-    clock: Stopwatch,
-    announce: Progress,
-    execution: Execution,
+def _carry_out(
+    case: Case, system: System, clock: Stopwatch, announce: Progress, execution: Execution
 ) -> Result:
-    """Run an assembled system.
-
-    Parameters
-    ----------
-    scenario, train : Scenario, Train
-        What is run, and how it is coupled and recorded.
-    system : System
-        In Initialization Mode, parameters set.
-    find : callable
-        Returns the start of the run.
-    clock : Stopwatch
-        Started before the units were loaded.
-    announce : callable
-        See `Progress`.
-    execution : Execution
-        Checkpoints and the like.
-    """
+    """Run an assembled system from its start, or from a checkpoint, to its end."""
     announce(Stage.WARM_UP, 0.0)
-    _warm_up(system, train)
+    _warm_up(system, case.train)
     load = clock.lap()
     announce(Stage.EQUILIBRIUM, 0.0)
-    resume, checkpoints = execution.resume, execution.checkpoints
     try:
-        if resume is None:
-            start = begin(system, find(), train.nodes)
+        if execution.resume is None:
+            start = begin(system, case.units.find_start(system), case.train.nodes)
         else:
-            resume.restore_units(system)
-            start = resume.start()
+            execution.resume.restore_units(system)
+            start = execution.resume.start()
     except (EquilibriumError, UnitError) as error:
-        outcome = error.outcome if isinstance(error, UnitError) else Outcome.NO_EQUILIBRIUM
-        timing = Timing(load, clock.lap(), 0.0, 0.0, 0.0, 0.0, 0.0)
-        return failed_start(scenario, train, outcome, f"at the start: {error}", timing)
-    equilibrium = clock.lap()
+        assert error.outcome is not None
+        return _failed_start(case, error.outcome, f"at the start: {error}", Timing(load, clock.lap()))
     announce(Stage.RUN, 0.0)
-    course = _course(scenario)
-    stride = max(1, round(scenario.record.interval / scenario.step))
-    recorder = Recorder(system, train.nodes, course.steps, stride)
-    loads = np.abs(start.loads)
-    system.set_scale(float(loads.mean()), [seat.width for seat in train.bearings])
-    ledger = Ledger(system) if scenario.ledger else None
-    keepers: dict[str, Keeper] = {"record": recorder, **({} if ledger is None else {"ledger": ledger})}
-    observers: list[Observer] = [recorder, *([] if ledger is None else [ledger])]
-    observers += [] if checkpoints is None else [Saver(checkpoints, system, start, keepers)]
-
-    def on_time(time: float) -> None:
-        watchdog.beat(time)
-        announce(Stage.RUN, time)
-
-    def hung(message: str) -> Result:
-        kept = copy(recorder)  # its size stays as it is, whatever the time loop does
-        record = make_record(kept, start, scenario, train, Outcome.UNIT_HUNG, message, provenance)
-        timing = Timing(load, equilibrium, 0.0, 0.0, 0.0, 0.0, clock.lap())
-        return Result(record, Outcome.UNIT_HUNG, message, timing, 0, system.bearing_group.evaluations)
-
-    provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
-    watchdog = execution.watchdog
-    watchdog.partial, watchdog.patience = hung, 1.0
-    before = [(group.step_time, group.exchange_time) for group in system.groups]
-    end = run(
-        system,
-        make_scheme(scenario.coupling, scenario.tolerance),
-        observers,
-        course,
-        on_time=on_time,
-        resume=None if resume is None else lambda stepper: resume.restore_run(stepper, keepers),
-    )
-    (rotor, rotor_exchange), (film, film_exchange) = (
-        (group.step_time - earlier[0], group.exchange_time - earlier[1])
-        for group, earlier in zip(system.groups, before, strict=True)
-    )
-    fmi = rotor_exchange + film_exchange
-    rest = end.wall_time - film - rotor - fmi - end.record_time
-    outcome, message = end.outcome, with_state(end, system, start.offsets)
-    record = make_record(recorder, start, scenario, train, outcome, message, provenance)
-    if outcome.ok and (message := unresolved(record)):
-        outcome = Outcome.UNRESOLVED
-        record = record.assign_attrs(outcome_attributes(outcome, message))
-    record = record.assign_attrs(end.counts.attributes(system.bearing_group.evaluations))
-    if ledger is not None and not system.rotor.failed:
-        record = with_ledger(record, ledger.balance())
-    return Result(
-        record,
-        outcome,
-        message,
-        Timing(load, equilibrium, film, rotor, fmi, end.record_time, rest),
-        end.counts.accepted,
-        system.bearing_group.evaluations,
-        end.counts,
-    )
+    return _TimeLoop(case, system, start, Timing(load, clock.lap())).run(announce, execution)
 
 
-def failed_start(
-    scenario: Scenario, train: Train, outcome: Outcome, message: str, timing: Timing = _NO_TIME
-) -> Result:
+def _failed_start(case: Case, outcome: Outcome, message: str, timing: Timing | None = None) -> Result:
     """Return the result of a run that came to no start."""
-    return Result(empty_record(scenario, train, outcome, message), outcome, message, timing, 0, 0)
-
-
-def _course(scenario: Scenario) -> Course:
-    """Steps end on the fracture where they are controlled; else the rotor takes it inside a step, exactly."""
-    controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
-    events = (scenario.event.time,) if controlled and scenario.event is not None else ()
-    return Course(scenario.end, scenario.step, scenario.tolerance, events)
+    record = empty_record(case.scenario, case.train, outcome, message)
+    return Result(record, outcome, message, timing or Timing(), 0, 0)
 
 
 def _warm_up(system: System, train: Train) -> None:
@@ -223,3 +154,83 @@ def _warm_up(system: System, train: Train) -> None:
     positions[:, 1] = [-0.5 * seat.clearance for seat in train.bearings]
     evaluate(system, positions)
     system.rotor_group.fetch()
+
+
+class _TimeLoop:
+    """A system that stands at its start, with all that watches it."""
+
+    def __init__(self, case: Case, system: System, start: Start, timing: Timing) -> None:
+        self._case, self._system, self._start, self._timing = case, system, start, timing
+        scenario, train = case.scenario, case.train
+        # Steps end on the fracture where they are controlled; else the rotor takes it inside a step, exactly.
+        controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
+        events = (scenario.event.time,) if controlled and scenario.event is not None else ()
+        self._course = Course(scenario.end, scenario.step, scenario.tolerance, events)
+        stride = max(1, round(scenario.record.interval / scenario.step))
+        self._recorder = Recorder(system, train.nodes, self._course.steps, stride)
+        load = float(np.abs(start.loads).mean())
+        system.set_scale(load, [seat.width for seat in train.bearings])
+        self._ledger = Ledger(system) if scenario.ledger else None
+        self._keepers: dict[str, Keeper] = {"record": self._recorder}
+        self._observers: list[Observer] = [self._recorder]
+        if self._ledger is not None:
+            self._keepers["ledger"] = self._ledger
+            self._observers.append(self._ledger)
+        self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+
+    def run(self, announce: Progress, execution: Execution) -> Result:
+        """Carry it to its end."""
+        scenario, system, watchdog = self._case.scenario, self._system, execution.watchdog
+        resume, observers = execution.resume, list(self._observers)
+        if execution.checkpoints is not None:
+            observers.append(Saver(execution.checkpoints, system, self._start, self._keepers))
+
+        def on_time(time: float) -> None:
+            watchdog.beat(time)
+            announce(Stage.RUN, time)
+
+        watchdog.partial, watchdog.patience = self._hung, 1.0
+        before = [(group.step_time, group.exchange_time) for group in system.groups]
+        end = run(
+            system,
+            make_scheme(scenario.coupling, scenario.tolerance),
+            observers,
+            self._course,
+            on_time=on_time,
+            resume=None if resume is None else lambda stepper: resume.restore_run(stepper, self._keepers),
+        )
+        spent = [
+            (group.step_time - step, group.exchange_time - exchange)
+            for group, (step, exchange) in zip(system.groups, before, strict=True)
+        ]
+        return self._result(end, spent)
+
+    def _result(self, end: RunEnd, spent: list[tuple[float, float]]) -> Result:
+        """Make the result of a loop whose groups spent these times in steps and in exchange."""
+        (rotor, rotor_exchange), (film, film_exchange) = spent
+        fmi = rotor_exchange + film_exchange
+        rest = end.wall_time - film - rotor - fmi - end.record_time
+        timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
+        outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
+        record = self._record(self._recorder, outcome, message)
+        if outcome.ok and (message := unresolved(record)):
+            outcome = Outcome.UNRESOLVED
+            record = record.assign_attrs(outcome_attributes(outcome, message))
+        evaluations = self._system.bearing_group.evaluations
+        record = record.assign_attrs(end.counts.attributes(evaluations))
+        if self._ledger is not None and not self._system.rotor.failed:
+            record = with_ledger(record, self._ledger.balance())
+        return Result(record, outcome, message, timing, end.counts.accepted, evaluations, end.counts)
+
+    def _hung(self, message: str) -> Result:
+        """Make the result of a loop that hangs in a unit."""
+        kept = copy(self._recorder)  # its size stays as it is, whatever the time loop does
+        record = self._record(kept, Outcome.UNIT_HUNG, message)
+        evaluations = self._system.bearing_group.evaluations
+        return Result(record, Outcome.UNIT_HUNG, message, self._timing, 0, evaluations)
+
+    def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
+        case = self._case
+        return make_record(
+            recorder, self._start, case.scenario, case.train, outcome, message, self._provenance
+        )

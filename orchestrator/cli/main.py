@@ -29,7 +29,7 @@ from orchestrator.cli.options import (
     guarded,
 )
 from orchestrator.cli.wrong_use import Commands, WrongChoice, one_of
-from orchestrator.exit_status import status_lines
+from orchestrator.outcome import status_lines
 from rotor_fmu.train.wording import choice
 
 app = typer.Typer(
@@ -175,7 +175,7 @@ def run(
     def work() -> int:
         from rich.console import Console
 
-        from orchestrator.commands.run import RunRequest
+        from orchestrator.case.request import RunRequest
         from orchestrator.commands.run import run as run_scenario
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()

@@ -77,31 +77,21 @@ FigureFormats = Annotated[
 
 
 def guarded(work: Callable[[], int]) -> None:
-    """Do the work; an error becomes its text on stderr and a status: 2 for the input, else its outcome's."""
-    from orchestrator.errors import EquilibriumError, NotWrittenError, OrchestratorError, Terminated
-    from orchestrator.exit_status import INPUT_ERROR, of_outcome
-    from orchestrator.fmi.unit_error import UnitError
+    """Do the work; an error becomes its text on stderr and its exit status."""
+    from orchestrator.errors import OrchestratorError, outcome_of
     from orchestrator.master.interrupt import handled, raise_at_once
-    from orchestrator.outcome import Outcome
-    from rotor_fmu.train.file import TrainFileError
 
     text = ""
     try:
         with handled(raise_at_once):
             status = work()
-    except EquilibriumError as error:
-        text, status = f"{error}. {Outcome.NO_EQUILIBRIUM.advice}", of_outcome(Outcome.NO_EQUILIBRIUM)
-    except UnitError as error:
-        text, status = f"{error}. {error.outcome.advice}", of_outcome(error.outcome)
-    except NotWrittenError as error:
-        text, status = f"{error} {Outcome.NOT_WRITTEN.advice}", of_outcome(Outcome.NOT_WRITTEN)
-    except (OrchestratorError, TrainFileError) as error:
-        text, status = str(error), INPUT_ERROR
+    except OrchestratorError as error:
+        text, status = error.text, error.exit_status
     except OSError as error:
         text, status = str(error), 1
     except KeyboardInterrupt as error:
-        outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
-        text, status = f"{outcome.value}; nothing was written", of_outcome(outcome)
+        outcome = outcome_of(error)
+        text, status = f"{outcome.value}; nothing was written", outcome.status
     if text:
         typer.secho(f"error: {text}", err=True, fg="red")
     raise typer.Exit(status)

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import typer
 from typer.core import TyperGroup
 
-from orchestrator.exit_status import INPUT_ERROR
+from orchestrator.outcome import INPUT_ERROR
 from rotor_fmu.train.wording import choice
 
 _WRONG_USE: type[Exception] = typer.BadParameter.__mro__[1]  # UsageError, which typer does not export

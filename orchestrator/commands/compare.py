@@ -10,7 +10,6 @@ from typing import Any
 
 from rich.console import Console
 
-from orchestrator import exit_status
 from orchestrator.errors import NotWrittenError
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.watchdog import BUDGET
@@ -24,7 +23,7 @@ from orchestrator.results.folder import (
     partial_folder,
     temporary_prefix,
 )
-from orchestrator.results.folder_lock import claim
+from orchestrator.results.folder_lock import lock_folder
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.problems import record_size
 from orchestrator.scenario.scenario import DEPTHS
@@ -96,7 +95,7 @@ def run(
     -------
     int
         Exit status: 0 when every run finished, whatever the verdicts; otherwise that of the
-        first run that did not, see `orchestrator.exit_status`.
+        first run that did not, see `orchestrator.outcome`.
 
     Raises
     ------
@@ -112,7 +111,7 @@ def run(
     ensure_fmus(request.fmus, train, depths, console)
     means = Means(request.fmus, request.jobs, request.budget, command)
     with (
-        claim(folder),
+        lock_folder(folder),
         tempfile.TemporaryDirectory(prefix=temporary_prefix(folder), dir=folder.parent) as made,
     ):
         runs = Path(made)
@@ -148,7 +147,7 @@ def run(
                 with room_for(records, target):
                     data_then_figures(target, write, draw if request.formats else None, _OURS)
             except NotWrittenError as error:
-                status = exit_status.of_outcome(Outcome.NOT_WRITTEN)
+                status = Outcome.NOT_WRITTEN.status
                 errors.print(f"[red]error:[/red] {error}", highlight=False, soft_wrap=True)
             else:
                 kind = "Partial results" if failed else "Results"

@@ -8,7 +8,7 @@ from rich.console import Console
 
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import own_bearings, require_trust
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_with_train
 from orchestrator.ssp.export import export, force_only
 from orchestrator.ssp.structure import SspError
 
@@ -39,12 +39,11 @@ def export_scenario(
     OrchestratorError
         For anything wrong with the input, and when there is no static equilibrium.
     """
-    scenario = load_scenario(source)
+    scenario, train = load_with_train(source)
     path = out or Path(f"{Path(source).stem}.ssp")
     if path.suffix != ".ssp":
         raise SspError(f"--out {path}: allowed is a name that ends in .ssp")
     require_trust(own_bearings(scenario), fmus, trust=trust)
-    train = train_of(scenario)
     ensure_fmus(fmus, train, {scenario.depth_of(seat.name) for seat in train.bearings}, console)
     console.print("Solving the static equilibrium", highlight=False)
     try:

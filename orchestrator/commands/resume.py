@@ -6,11 +6,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from orchestrator.case.checkpoint_folder import SUFFIX, checkpoint_folder
-from orchestrator.commands.run import RunRequest, carry_out_request
+from orchestrator.case.checkpoint_folder import SUFFIX, checkpoint_folder, request_of
+from orchestrator.case.prepare import prepare
+from orchestrator.commands.run import run_case
 from orchestrator.observers import checkpoint
-from orchestrator.observers.checkpoint import CheckpointError
-from orchestrator.scenario.file import parse_scenario
 
 
 def resume(folder: Path, console: Console, errors: Console, *, trust: bool = False) -> int:
@@ -28,31 +27,17 @@ def resume(folder: Path, console: Console, errors: Console, *, trust: bool = Fal
     Returns
     -------
     int
-        Exit status, see `orchestrator.exit_status`.
+        Exit status, see `orchestrator.outcome`.
 
     Raises
     ------
-    CheckpointError
-        When there is no checkpoint, or it belongs to other FMUs.
+    OrchestratorError
+        When there is no checkpoint, or it belongs to other FMUs or to another SSP.
     """
-    named = folder.name.endswith(SUFFIX)
-    saved = checkpoint.read(folder if named else checkpoint_folder(folder))
-    about = saved.about
-    try:
-        scenario = parse_scenario(about["scenario"], Path(about["scenario_folder"]), str(saved.path))
-        request = RunRequest(
-            about["source"],
-            out=folder.with_name(folder.name.removesuffix(SUFFIX)),
-            fmus=Path(about["fmus"]),
-            bearing=about["bearing"],
-            formats=tuple(about["formats"]),
-            checkpoint=about["every"],
-            certify=about["certify"],
-            threads=about["threads"],
-            trust=trust,
-            budget=about["budget"],
-        )
-    except KeyError as error:
-        raise CheckpointError(f"{saved.path}: {error} is missing") from None
-    console.print(f"Going on from t = {saved.time:.6g} s of {scenario.end:.6g} s", highlight=False)
-    return carry_out_request(request, scenario, console, errors, saved)
+    results = folder.with_name(folder.name.removesuffix(SUFFIX))
+    saved = checkpoint.read(checkpoint_folder(results))
+    request = request_of(saved, results, trust=trust)
+    with prepare(request, console, saved) as case:
+        end = f"{case.scenario.end:.6g}"
+        console.print(f"Going on from t = {saved.time:.6g} s of {end} s", highlight=False)
+        return run_case(case, request, console, errors, saved)

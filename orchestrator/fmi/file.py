@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Protocol
 
 import fmpy
 
@@ -28,6 +28,17 @@ _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _DESCRIPTION, _SOURCES = "modelDescription.xml", "sources/buildDescription.xml"
 
 
+Call = list[str]
+"""A call to a unit: its C function. Every call is a list of its own, by which it is known."""
+
+
+class Instance(Protocol):
+    """What a watchdog sees of a unit: its name and the call that it is in, None in between."""
+
+    name: str
+    call: Call | None
+
+
 class FmuFile:
     """An extracted FMU 2.0 for co-simulation.
 
@@ -41,10 +52,10 @@ class FmuFile:
         Its modelDescription.xml.
     variables : dict
         The description's scalar variables by name.
+    instances : list of Unit
+        Those that live.
     size : int
         Bytes that it holds extracted.
-    instances : int
-        How many live.
     memoryless : bool
         Whether it says that its outputs follow from its inputs alone, see `fmus.build.memoryless`.
 
@@ -57,6 +68,7 @@ class FmuFile:
     def __init__(self, path: Path, folder: Path, limits: Limits = LIMITS) -> None:
         self.path = path
         self.folder = folder
+        self.instances: list[Instance] = []
         try:
             self.size = extract(path, folder, "FMU", limits)
             self.memoryless = is_memoryless(read_xml(folder / _DESCRIPTION))
@@ -82,7 +94,6 @@ class FmuFile:
             raise FmuError(
                 f"{path}: modelIdentifier {identifier!r}; allowed are letters, digits and underscores"
             )
-        self.instances = 0
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
 
     @property
@@ -111,6 +122,20 @@ class FmuFile:
             self.library.finalizePythonInterpreter.restype = None
             self.library.finalizePythonInterpreter()
 
+    def check_steps(self, step: float, end: float, halved: bool) -> None:
+        """Refuse steps of unlike length, the last or `halved` ones, for units that cannot take them.
+
+        Raises
+        ------
+        FmuError
+            Naming the flag.
+        """
+        uneven = abs(end / step - round(end / step)) > 1e-9 * end / step
+        if (uneven or halved) and not self.description.coSimulation.canHandleVariableCommunicationStepSize:
+            why = f"end = {end!r} s is no multiple of step = {step!r} s"
+            why = "a tolerance halves steps" if halved else why
+            raise FmuError(f"{self.path}: canHandleVariableCommunicationStepSize is false, but {why}")
+
     @property
     def can_keep_state(self) -> bool:
         """Whether its state can be got and set, that is, whether a step can be taken back."""
@@ -118,12 +143,18 @@ class FmuFile:
 
 
 class FmuStore:
-    """Extracts FMU files on demand into one temporary folder, and removes it at the end."""
+    """Extracts FMU files on demand into one temporary folder, and removes it at the end.
+
+    Attributes
+    ----------
+    folder : Path
+        The temporary folder.
+    """
 
     def __init__(self) -> None:
         roots = (tempfile.gettempdir(), *_FALLBACKS)
         root = next((r for r in roots if _SAFE_PATH.fullmatch(r) and os.access(r, os.W_OK)), None)
-        self._folder = Path(tempfile.mkdtemp(prefix="bladeloss_", dir=root))
+        self.folder = Path(tempfile.mkdtemp(prefix="bladeloss_", dir=root))
         self._files: dict[Path, FmuFile] = {}
         self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
 
@@ -138,9 +169,13 @@ class FmuStore:
         key = path.resolve()
         if key not in self._files:
             limits = replace(LIMITS, total=self._left)
-            self._files[key] = FmuFile(path, self._folder / f"fmu{len(self._files)}", limits)
+            self._files[key] = FmuFile(path, self.folder / f"fmu{len(self._files)}", limits)
             self._left -= self._files[key].size
         return self._files[key]
+
+    def instances(self) -> list[Instance]:
+        """Return the units that live, of all FMUs."""
+        return [unit for file in list(self._files.values()) for unit in list(file.instances)]
 
     def close(self) -> None:
         """Remove what was extracted; no instance may live any more."""
@@ -151,7 +186,7 @@ class FmuStore:
 
     def remove(self) -> None:
         """Remove the files alone, where a unit is still in a call that does not end."""
-        shutil.rmtree(self._folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self) -> FmuStore:
         return self

@@ -9,8 +9,8 @@ from rich.console import Console
 
 from fmus.build.builder import build, refresh
 from orchestrator.errors import FmuError
+from orchestrator.scenario.file import read_train
 from orchestrator.scenario.scenario import is_fmu
-from rotor_fmu.train.file import load_train
 from rotor_fmu.train.train import Train
 
 
@@ -52,12 +52,12 @@ def build_all(folder: Path, trains: Sequence[str], console: Console) -> list[Pat
 
     Raises
     ------
-    TrainFileError
+    OrchestratorError
         When a train cannot be read.
     FmuError
         When an FMU cannot be built.
     """
-    loaded = [load_train(name) for name in trains]
+    loaded = [read_train(name) for name in trains]
     try:
         built = build(folder, loaded)
     except (OSError, ValueError) as error:

@@ -25,7 +25,7 @@ from fmpy.fmi2 import (
 from numpy.typing import NDArray
 
 from orchestrator.errors import FmuError, PortError
-from orchestrator.fmi.file import FmuFile
+from orchestrator.fmi.file import Call, FmuFile
 from orchestrator.fmi.unit_error import Status, UnitError
 
 __all__ = ["Block", "Status", "Unit", "UnitError"]
@@ -72,6 +72,13 @@ class Unit:
     release_gil : bool
         Call the unit's steps without holding Python's lock, for units that step on several threads.
 
+    Attributes
+    ----------
+    call : list of str or None
+        The C function that it is in, for a watchdog on another thread.
+    evaluations : int
+        Steps that it has begun.
+
     Raises
     ------
     FmuError
@@ -82,6 +89,7 @@ class Unit:
         self.name = name
         self.file = file
         self.evaluations = 0
+        self.call: Call | None = ["fmi2Instantiate"]
         self._messages: list[str] = []
         self._states: dict[int, Any] = {}
         self._initialized = False
@@ -96,6 +104,7 @@ class Unit:
             raise FmuError(
                 f"{file.path}: canBeInstantiatedOnlyOncePerProcess, and {name} would be a second instance"
             )
+        file.instances.append(self)
         try:
             self._slave = FMU2Slave(
                 guid=description.guid,
@@ -105,9 +114,11 @@ class Unit:
             )
             self._slave.instantiate(callbacks=self._callbacks, loggingOn=True)
         except Exception as error:  # fmpy raises bare exceptions here
+            file.instances.remove(self)
             reason = "; ".join(self._messages) or str(error)
             raise FmuError(f"{file.path}: cannot be instantiated as {name}: {reason}") from None
-        file.instances += 1
+        finally:
+            self.call = None
         self._library = file.library
         self.component = ctypes.c_void_p(self._slave.component)
         self._do_step = (self._slave.dll if release_gil else self._library)["fmi2DoStep"]
@@ -135,25 +146,6 @@ class Unit:
         """Whether a call ended with an error after which nothing more may be asked of the unit."""
         return self._worst >= Status.ERROR
 
-    def check_steps(self, step: float, end: float, halved: bool) -> None:
-        """Refuse steps of unlike length, the last or `halved` ones, for a unit that cannot take them.
-
-        Raises
-        ------
-        FmuError
-            Naming the flag.
-        """
-        uneven = abs(end / step - round(end / step)) > 1e-9 * end / step
-        if (
-            uneven or halved
-        ) and not self.file.description.coSimulation.canHandleVariableCommunicationStepSize:
-            why = (
-                "a tolerance halves steps"
-                if halved
-                else f"end = {end!r} s is no multiple of step = {step!r} s"
-            )
-            raise FmuError(f"{self.file.path}: canHandleVariableCommunicationStepSize is false, but {why}")
-
     def variable(self, name: str) -> Any:
         """Return the description of a variable.
 
@@ -176,7 +168,11 @@ class Unit:
         call.restype = ctypes.c_int
 
         def run(_alive: object = memory) -> None:
-            status = call(*arguments)
+            self.call = [function]
+            try:
+                status = call(*arguments)
+            finally:
+                self.call = None
             if status:
                 self._fail(function, status)
 
@@ -188,10 +184,13 @@ class Unit:
         raise UnitError(self.name, function, code, self._messages[-1] if self._messages else "")
 
     def _call(self, method: str, *arguments: Any) -> Any:
+        self.call = [f"fmi2{method[0].upper()}{method[1:]}"]
         try:
             status = getattr(self._slave, method)(*arguments)
         except FMICallException as error:
             self._fail(error.function, error.status)
+        finally:
+            self.call = None
         if isinstance(status, int) and status:
             self._fail(method, status)
         return status
@@ -232,7 +231,11 @@ class Unit:
             When the unit does not accept the step.
         """
         self.evaluations += 1
-        status = self._do_step(self.component, time, step, 0)
+        self.call = ["fmi2DoStep"]
+        try:
+            status = self._do_step(self.component, time, step, 0)
+        finally:
+            self.call = None
         if status:
             self._fail("fmi2DoStep", status)
 
@@ -286,6 +289,8 @@ class Unit:
             if self._initialized:
                 self._call("terminate")
         if self._worst < Status.FATAL:
+            self.call = ["fmi2FreeInstance"]
             self._slave.freeInstance()
-            self.file.instances -= 1
+            self.file.instances.remove(self)
+            self.call = None
         self._slave.component = None

@@ -1,8 +1,7 @@
 """Ends a run whose unit does not come back from a call, with what was recorded until then.
 
 The thread that waits for such a unit can do nothing more, so the watchdog is another: a few times a
-second it looks in which call to a unit every thread is, and counts how long it stays the same. The
-time loop itself pays one assignment a macro step.
+second it looks in which call every unit is (`Unit.call`), and counts how long that stays the same.
 """
 
 from __future__ import annotations
@@ -13,15 +12,13 @@ import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
-from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import Generic, NoReturn, TypeVar
 
-from orchestrator.fmi import unit
+from orchestrator.fmi.file import Call, Instance
 
-if TYPE_CHECKING:
-    from orchestrator.results.result import Result
+Result = TypeVar("Result")
 
 BUDGET = 60.0
 """Wall time in s that a call to a unit may take, unless the user says otherwise."""
@@ -32,10 +29,9 @@ PATIENCE = 10.0
 _PERIOD = 0.25  # s
 _WRITING = 600.0  # s, at most, to write what there is
 _SWIFT = 1e-4  # s, after which a unit that loops in Python gives way to the writing
-_C_NAMES = {"do_step": "fmi2DoStep", "__init__": "fmi2Instantiate"}
 
 
-class Watchdog:
+class Watchdog(Generic[Result]):
     """Watches the calls to units; a context, within which it is awake.
 
     Parameters
@@ -51,15 +47,18 @@ class Watchdog:
         Times the budget, for the present.
     partial : callable
         Makes the result of the run as it stands from a message.
-    leftovers : list of callable
-        What has to be removed before the process ends.
+    units : callable
+        Returns the units to watch, for they come one by one.
+    remove : callable
+        Removes what must not stay when the process ends.
     """
 
     def __init__(self, budget: float = 0.0, give_up: Callable[[Result], None] | None = None) -> None:
         self.budget = budget
         self.patience = PATIENCE
         self.partial: Callable[[str], Result] | None = None
-        self.leftovers: list[Callable[[], None]] = []
+        self.units: Callable[[], Iterable[Instance]] = tuple
+        self.remove: Callable[[], None] = lambda: None
         self.time = 0.0
         self.tripped = False
         self._give_up = give_up
@@ -85,35 +84,33 @@ class Watchdog:
 
     def _watch(self) -> None:
         period = min(_PERIOD, self.budget / 4.0)
-        calls: dict[int, tuple[FrameType, float]] = {}
+        calls: dict[int, tuple[Call, float]] = {}
         before = time.monotonic()
         while not self._awake.wait(period):
             _arm_last_resort(2.0 * self.budget * self.patience + 1.0)
             now = time.monotonic()
             # A suspended process has not waited for its unit.
             elapsed, before = min(now - before, 2.0 * period), now
+            units = {id(unit): unit for unit in self.units()}
             calls = {
-                thread: (frame, known[1] + elapsed if known is not None and known[0] is frame else 0.0)
-                for thread, frame in _unit_calls().items()
-                for known in (calls.get(thread),)
+                key: (call, known[1] + elapsed if known is not None and known[0] is call else 0.0)
+                for key, unit in units.items()
+                for call, known in ((unit.call, calls.get(key)),)
+                if call is not None
             }
-            for frame, spent in calls.values():
+            for key, (call, spent) in calls.items():
                 if spent >= self.budget * self.patience:
-                    self._trip(frame, spent)
+                    self._trip(units[key].name, call, spent)
                     return
         with suppress(RuntimeError):
             faulthandler.cancel_dump_traceback_later()
 
-    def _trip(self, frame: FrameType, spent: float) -> None:
+    def _trip(self, name: str, call: Call, spent: float) -> None:
         self.tripped = True
         _arm_last_resort(_WRITING)
         sys.setswitchinterval(_SWIFT)
-        stuck = frame.f_locals.get("self")
-        name = stuck.name if isinstance(stuck, unit.Unit) else "a unit"
-        call = frame.f_locals.get("function") or _C_NAMES.get(frame.f_code.co_name, frame.f_code.co_name)
-        message = f"at t = {self.time:.9g} s: {name}: {call} has not come back for {spent:.3g} s"
-        for remove in self.leftovers:
-            remove()
+        message = f"at t = {self.time:.9g} s: {name}: {call[0]} has not come back for {spent:.3g} s"
+        self.remove()
         if self.partial is not None and self._give_up is not None:
             self._give_up(self.partial(message))
 
@@ -140,15 +137,3 @@ def leave(conclude: Callable[[], int], *after: Callable[[], object]) -> NoReturn
             sys.stdout.flush()
             sys.stderr.flush()
         os._exit(status)
-
-
-def _unit_calls() -> dict[int, FrameType]:
-    """Return the outermost frame in the module of units of every thread that has one."""
-    found: dict[int, FrameType] = {}
-    for thread, innermost in sys._current_frames().items():
-        frame: FrameType | None = innermost
-        while frame is not None:
-            if frame.f_globals is vars(unit):
-                found[thread] = frame
-            frame = frame.f_back
-    return found

@@ -20,7 +20,7 @@ from orchestrator.linear.operating_point import OperatingPoint, operating_point
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
-from orchestrator.scenario.file import bundled_scenarios, load_scenario, scenario_toml, train_of
+from orchestrator.scenario.file import bundled_scenarios, load_with_train, read_train, scenario_toml
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.linear.analysis import (
     DEFAULT_SIZE,
@@ -31,7 +31,6 @@ from rotor_fmu.linear.analysis import (
     reduced_shaft,
     unreduced_shaft,
 )
-from rotor_fmu.train.file import load_train
 from rotor_fmu.train.train import Train
 
 if TYPE_CHECKING:
@@ -166,17 +165,16 @@ def linear_case(request: LinearRequest, console: Console) -> LinearCase:
 
     Raises
     ------
-    OrchestratorError, TrainFileError
+    OrchestratorError
         For anything wrong with the input or with the folder of the results.
     """
     overrides = {"depth": request.depth, "depth_at": None} if request.depth else {}
     path = Path(request.source)
     is_scenario = path.suffix == ".toml" and path.name != "train.toml"
     if request.source in bundled_scenarios() or is_scenario:
-        scenario = load_scenario(request.source, overrides)
-        train = train_of(scenario)
+        scenario, train = load_with_train(request.source, overrides)
     else:
-        train = load_train(request.source)
+        train = read_train(request.source)
         settings: dict[str, Any] = {"train": request.source, "end": 1.0, "title": f"Train {train.name}"}
         scenario = Scenario.model_validate(settings | ({"depth": request.depth} if request.depth else {}))
     check_folder(request.folder, f"{request.command}.nc")

@@ -1,32 +1,63 @@
-"""Instantiate the units of a scenario and give them their parameters."""
+"""Units as a system: instantiated, with their parameters, in Initialization Mode."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from orchestrator.errors import FmuError
-from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import System
-from orchestrator.scenario.parameters import bearing_parameters, bearing_path, rotor_file, rotor_parameters
+from orchestrator.scenario.parameters import (
+    Values,
+    bearing_parameters,
+    bearing_path,
+    rotor_file,
+    rotor_parameters,
+)
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
 
 
+@dataclass(frozen=True)
+class Part:
+    """A unit to be made: its name, its FMU, and its parameters by name."""
+
+    name: str
+    file: FmuFile
+    parameters: Values
+
+
+def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
+    """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters."""
+    yield Part("rotor", store.open(fmus / rotor_file(train)), rotor_parameters(scenario, train))
+    for seat in train.bearings:
+        file = store.open(bearing_path(scenario, seat.name, fmus))
+        values = bearing_parameters(seat, scenario.film)
+        yield Part(seat.name, file, {name: x for name, x in values.items() if name in file.variables})
+
+
 def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, threads: int = 1) -> System:
-    """Make the system of a scenario.
+    """Make the system of a scenario from a folder of FMUs; otherwise as `join`."""
+    return join(parts_in_folder(scenario, train, fmus, store), scenario, train.speed, fmus, threads)
+
+
+def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, threads: int = 1) -> System:
+    """Make a system of units.
 
     Parameters
     ----------
+    parts : iterable of Part
+        The rotor, then the bearings in its order.
     scenario : Scenario
-        Depths, reduction, unbalance, event, coupling.
-    train : Train
-        Its train.
-    fmus : Path
-        Folder with the FMUs.
-    store : FmuStore
-        Extracts them.
+        Its coupling says what the bearings give the rotor, and how long it runs.
+    speed : float
+        In rad/s.
+    place : Path
+        Where the units come from, for messages.
     threads : int
         On which the bearings step.
 
@@ -44,29 +75,22 @@ def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, thre
     """
     units: list[Unit] = []
     try:
-        units.append(Unit(store.open(fmus / rotor_file(train)), "rotor"))
-        for seat in train.bearings:
-            file = store.open(bearing_path(scenario, seat.name, fmus))
-            units.append(Unit(file, seat.name, release_gil=threads > 1))
+        parameters = []
+        for part in parts:
+            units.append(Unit(part.file, part.name, release_gil=bool(units) and threads > 1))
+            parameters.append(part.parameters)
         system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
         system.bearing_group.employ(threads)
-        system.rotor.set_parameters(rotor_parameters(scenario, train))
-        for unit, seat in zip(system.bearings, train.bearings, strict=True):
-            unit.check_steps(scenario.step, scenario.end, scenario.tolerance is not None)
-            values = bearing_parameters(seat, scenario.film)  # a user's own bearing may do without some
-            unit.set_parameters({name: x for name, x in values.items() if name in unit.file.variables})
-        system.set_speed(train.speed)
+        for unit, values in zip(units, parameters, strict=True):
+            unit.file.check_steps(scenario.step, scenario.end, scenario.tolerance is not None)
+            unit.set_parameters(values)
+        system.set_speed(speed)
         for unit in units:
             unit.enter_initialization(0.0, scenario.end)
-    except UnitError as error:
-        _close(units)
-        raise FmuError(f"{fmus}: {error}") from None
-    except Exception:
-        _close(units)
+    except Exception as error:
+        for unit in units:
+            unit.close()
+        if isinstance(error, UnitError):
+            raise FmuError(f"{place}: {error}") from None
         raise
     return system
-
-
-def _close(units: list[Unit]) -> None:
-    for unit in units:
-        unit.close()

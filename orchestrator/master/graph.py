@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from orchestrator.errors import PortError
 from orchestrator.fmi.unit import Block, Unit
-from orchestrator.master.threads import Crew
+from orchestrator.master.threads import StepThreads
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Group:
         members = [graph.members[name] for name in names]
         self.units: tuple[Unit, ...] = tuple(m.unit for m in members)
         self._graph = graph
-        self._crew = Crew(self.units)
+        self._threads = StepThreads(self.units)
         self._targets = np.concatenate([m.targets for m in members])
         self._sources = np.concatenate([m.sources for m in members])
         self._feeds = tuple(m.linked.set for m in members if m.linked is not None)
@@ -68,12 +68,12 @@ class Group:
 
     def employ(self, threads: int) -> None:
         """Step the units on this many threads from now on."""
-        self._crew.close()
-        self._crew = Crew(self.units, threads)
+        self._threads.close()
+        self._threads = StepThreads(self.units, threads)
 
     def close(self) -> None:
         """End the threads."""
-        self._crew.close()
+        self._threads.close()
 
     def feed(self) -> None:
         """Move the newest outputs along the connections into the inputs of these units."""
@@ -117,7 +117,7 @@ class Group:
         """
         start = perf_counter()
         try:
-            self._crew.step(time, step)
+            self._threads.step(time, step)
         finally:
             self.step_time += perf_counter() - start
 

@@ -7,12 +7,11 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import ParamSpec
 
 from orchestrator.errors import Terminated
 
-if TYPE_CHECKING:
-    from orchestrator.results.result import Stage
+_Report = ParamSpec("_Report")
 
 SIGNALS: dict[int, type[KeyboardInterrupt]] = {
     signal.SIGINT: KeyboardInterrupt,
@@ -41,9 +40,7 @@ def raise_at_once(number: int, _frame: FrameType | None) -> None:
 
 
 @contextmanager
-def interrupt_between_steps(
-    progress: Callable[[Stage, float], None],
-) -> Iterator[Callable[[Stage, float], None]]:
+def interrupt_between_steps(progress: Callable[_Report, None]) -> Iterator[Callable[_Report, None]]:
     """Hold an interrupt or a request to terminate back until the time loop reports progress.
 
     FMUs run Python inside their calls; a `KeyboardInterrupt` raised there ends as a fatal error
@@ -52,7 +49,7 @@ def interrupt_between_steps(
     Parameters
     ----------
     progress : callable
-        As `orchestrator.case.simulate.Progress`.
+        Told how far the run is, at least after every macro step.
 
     Yields
     ------
@@ -66,8 +63,8 @@ def interrupt_between_steps(
             raise SIGNALS[number]
         due.append(number)
 
-    def report(stage: Stage, simulated: float) -> None:
-        progress(stage, simulated)
+    def report(*how_far: _Report.args, **more: _Report.kwargs) -> None:
+        progress(*how_far, **more)
         if due:
             raise SIGNALS[due[0]]
 

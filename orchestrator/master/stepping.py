@@ -19,6 +19,7 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master.coupling import Advance, Coupling, NotConverged
 from orchestrator.master.system import Array, System
+from orchestrator.outcome import Outcome
 
 DEEPEST = 10
 """Halvings of a macro step at most; the shortest step is 1/1024 of it."""
@@ -73,25 +74,23 @@ class StepCounts:
 
 
 class StepFailure(OrchestratorError):
-    """A step that cannot be carried out even at the shortest size.
-
-    Attributes
-    ----------
-    bearing : str
-        Where it fails the most; empty where that is not known.
-    """
+    """A step that cannot be carried out even at the shortest size; `unit` is the worst bearing."""
 
     def __init__(self, text: str, bearing: str = "") -> None:
-        self.bearing = bearing
+        self.unit = bearing
         super().__init__(f"{bearing}: {text}" if bearing else text)
 
 
 class ToleranceMissed(StepFailure):
     """The defect, or the residual of an iteration, stays above the tolerance."""
 
+    outcome = Outcome.TOLERANCE_MISSED
+
 
 class NotFinite(StepFailure):
     """The motion is no longer finite."""
+
+    outcome = Outcome.NOT_FINITE
 
 
 class Stepper:

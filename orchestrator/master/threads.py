@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from queue import SimpleQueue
 from threading import Thread
 
+import scipy.linalg  # noqa: F401  # its library must be loaded to be limited
+from threadpoolctl import threadpool_limits
+
 from orchestrator.fmi.unit import Unit
+
+
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Give linear algebra one thread: on matrices of this size more of them wait for one another."""
+    with threadpool_limits(1, user_api="blas"):
+        yield
+
 
 _Share = Sequence[tuple[int, Unit]]
 _Errors = dict[int, Exception]
 
 
-class Crew:
+class StepThreads:
     """Steps units on threads; all of them, whatever becomes of one.
 
     A unit does not see on which thread it steps, so that the values are those of one thread, to the bit.
@@ -29,7 +41,7 @@ class Crew:
         count = max(1, min(threads, len(units)))
         first, *others = (tuple(enumerate(units))[k::count] for k in range(count))
         self._own = first
-        self._hands = [_Hand(share) for share in others]
+        self._workers = [_Worker(share) for share in others]
 
     def step(self, time: float, step: float) -> None:
         """Carry out a macro step in every unit.
@@ -39,23 +51,23 @@ class Crew:
         UnitError
             From the first unit, in their order, that does not accept the step.
         """
-        for hand in self._hands:
-            hand.orders.put((time, step))
+        for worker in self._workers:
+            worker.orders.put((time, step))
         errors = _step_all(self._own, time, step)
-        for hand in self._hands:
-            errors |= hand.done.get()
+        for worker in self._workers:
+            errors |= worker.done.get()
         if errors:
             raise errors[min(errors)]
 
     def close(self) -> None:
         """End the threads."""
-        for hand in self._hands:
-            hand.orders.put(None)
-            hand.thread.join()
-        self._hands = []
+        for worker in self._workers:
+            worker.orders.put(None)
+            worker.thread.join()
+        self._workers = []
 
 
-class _Hand:
+class _Worker:
     """A thread that waits for orders; a macro step is too short for the futures of an executor."""
 
     def __init__(self, share: _Share) -> None:

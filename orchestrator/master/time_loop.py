@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
-from orchestrator.errors import Terminated
+from orchestrator.errors import outcome_of
 from orchestrator.fmi.unit import UnitError
 from orchestrator.master.coupling import Advance, Coupling
 from orchestrator.master.observer import Observer
-from orchestrator.master.stepping import NotFinite, StepCounts, StepFailure, Stepper
+from orchestrator.master.stepping import StepCounts, StepFailure, Stepper
 from orchestrator.master.system import System
 from orchestrator.outcome import Outcome
 
@@ -167,15 +167,11 @@ def run(
             except KeyboardInterrupt:  # between two steps: the run can go on from here, and be recorded
                 stop(k)
                 raise
-    except StepFailure as error:
-        outcome = Outcome.NOT_FINITE if isinstance(error, NotFinite) else Outcome.TOLERANCE_MISSED
-        message, unit = f"at t = {time:.9g} s: {error}", error.bearing
-    except UnitError as error:
-        outcome = error.outcome
-        message, unit = f"at t = {time:.9g} s: {error}", error.unit
+    except (StepFailure, UnitError) as error:
+        assert error.outcome is not None
+        outcome, message, unit = error.outcome, f"at t = {time:.9g} s: {error}", error.unit
     except KeyboardInterrupt as error:
-        outcome = Outcome.TERMINATED if isinstance(error, Terminated) else Outcome.INTERRUPTED
-        message = f"at t = {time:.9g} s"
+        outcome, message = outcome_of(error), f"at t = {time:.9g} s"
     if outcome in _LEAVES_UNITS_USABLE:
         stop(None)
     return RunEnd(outcome, message, unit, time, stepper.counts, perf_counter() - begin, recording)

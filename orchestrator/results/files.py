@@ -110,5 +110,5 @@ def room_for(records: Sequence[xr.Dataset], folder: Path) -> Iterator[None]:
         needed = sum(record.nbytes for record in records) / 1e6
         raise NotWrittenError(
             f"{folder}: results not written: {error.strerror or error}; about {needed:.3g} MB are needed, "
-            f"{free_room(folder) / 1e6:.3g} MB are free."
+            f"{free_room(folder) / 1e6:.3g} MB are free"
         ) from None

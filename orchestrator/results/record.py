@@ -16,7 +16,6 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
-from orchestrator.exit_status import of_outcome
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
 from orchestrator.outcome import Outcome
@@ -195,7 +194,7 @@ def outcome_attributes(outcome: Outcome, message: str) -> dict[str, Any]:
     """Attributes of the record that say how a run ended."""
     return {
         "status": outcome.value,
-        "exit_status": of_outcome(outcome),
+        "exit_status": outcome.status,
         "message": message,
         "advice": outcome.advice,
     }

@@ -2,31 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from enum import StrEnum
 from time import perf_counter
 
 import xarray as xr
 
-from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.master.stepping import StepCounts
-from orchestrator.observers.checkpoint import Checkpoint, Checkpoints
 from orchestrator.outcome import Outcome
-
-
-class Stage(StrEnum):
-    """What a call to `simulate` is busy with; the value is fit for display."""
-
-    LOAD = "loading FMUs"
-    WARM_UP = "first evaluation"  # long where numba has to compile the films, once per installation
-    EQUILIBRIUM = "static equilibrium"
-    RUN = "time loop"
-
-
-Progress = Callable[[Stage, float], None]
-"""Called with the stage and the simulated time in s: once at the start of each stage, then after every
-macro step of `Stage.RUN` (the callee decides how often it redraws)."""
 
 
 @dataclass(frozen=True)
@@ -47,13 +29,13 @@ class Timing:
         The rest of the time loop.
     """
 
-    load: float
-    equilibrium: float
-    film: float
-    rotor: float
-    fmi: float
-    record: float
-    master: float
+    load: float = 0.0
+    equilibrium: float = 0.0
+    film: float = 0.0
+    rotor: float = 0.0
+    fmi: float = 0.0
+    record: float = 0.0
+    master: float = 0.0
 
     @property
     def loop(self) -> float:
@@ -91,28 +73,6 @@ class Result:
     steps: int
     evaluations: int
     counts: StepCounts = field(default_factory=StepCounts)
-
-
-@dataclass(frozen=True)
-class Execution:
-    """How a run is carried out, without influence on its numbers.
-
-    Attributes
-    ----------
-    checkpoints : Checkpoints or None
-        Writes the run to disk as it goes.
-    resume : Checkpoint or None
-        Where to go on instead of at the start.
-    threads : int
-        On which the bearings step.
-    watchdog : Watchdog
-        Ends the run when a unit hangs; asleep by itself.
-    """
-
-    checkpoints: Checkpoints | None = None
-    resume: Checkpoint | None = None
-    threads: int = 1
-    watchdog: Watchdog = field(default_factory=Watchdog)
 
 
 class Stopwatch:

@@ -9,10 +9,12 @@ import json
 import math
 import sys
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from orchestrator.exit_status import of_outcome
+from orchestrator.master.stepping import StepCounts
+from orchestrator.results.certificate import Certificate
 from orchestrator.results.ledger import LedgerSummary, ledger_of
+from orchestrator.results.result import Result, Timing
 from orchestrator.results.statistics import (
     BearingStatistics,
     DefectStatistics,
@@ -24,11 +26,6 @@ from orchestrator.results.statistics import (
     shaft_statistics,
 )
 from orchestrator.results.windows import Phase, fracture_time, phases
-
-if TYPE_CHECKING:
-    from orchestrator.case.simulate import Result, Timing
-    from orchestrator.master.stepping import StepCounts
-    from orchestrator.results.certificate import Certificate
 
 UNITS = {
     "force": "N",
@@ -164,7 +161,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
     Parameters
     ----------
     result : Result
-        From `orchestrator.case.simulate.simulate`, also of a run that failed on its way.
+        Also of a run that failed on its way.
     analysed : str, optional
         Name of the analysed bearing; by default chosen by `statistics.analysed_bearing`.
 
@@ -188,7 +185,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         outcome=str(result.outcome.value),
         advice=result.outcome.advice,
         message=result.message,
-        exit_status=of_outcome(result.outcome),
+        exit_status=result.outcome.status,
         finished=result.outcome.ok,
         simulated=float(record["time"].values[-1]) if samples else 0.0,
         steps=result.steps,

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from orchestrator.errors import ScenarioError
+from orchestrator.errors import OrchestratorError, ScenarioError
 from orchestrator.scenario.problems import (
     file_problems,
     name_problems,
@@ -51,6 +51,11 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
     ScenarioError
         With one line for each problem of the file: file, key, value, what is allowed.
     """
+    return load_with_train(source, overrides)[0]
+
+
+def load_with_train(source: str | Path, overrides: Mapping[str, Any] | None = None) -> tuple[Scenario, Train]:
+    """Read and check a scenario as `load_scenario`, and return its train with it."""
     path = Path(source)
     if str(source) in bundled_scenarios():
         path = _SCENARIOS / f"{source}.toml"
@@ -64,8 +69,8 @@ def load_scenario(source: str | Path, overrides: Mapping[str, Any] | None = None
     return _checked(toml, overrides or {}, path.parent, str(source))
 
 
-def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
-    """Read a scenario from TOML text; relative paths count from `folder`, `source` names it in errors.
+def parse_scenario(text: str, folder: Path, source: str) -> tuple[Scenario, Train]:
+    """Read scenario and train from TOML text; paths count from `folder`, `source` names it in errors.
 
     Raises
     ------
@@ -89,7 +94,7 @@ def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario
     """
     raw = scenario.model_dump(mode="json", exclude_defaults=True)
     nothing = TomlSource("")  # the problems have no lines
-    return _checked(nothing, replaced(raw, overrides), scenario.folder, scenario.title or "scenario")
+    return _checked(nothing, replaced(raw, overrides), scenario.folder, scenario.title or "scenario")[0]
 
 
 def train_of(scenario: Scenario) -> Train:
@@ -97,10 +102,24 @@ def train_of(scenario: Scenario) -> Train:
 
     Raises
     ------
-    TrainFileError
+    OrchestratorError
         When it cannot be read.
     """
-    return load_train(_train_path(scenario.train, scenario.folder))
+    return read_train(_train_path(scenario.train, scenario.folder))
+
+
+def read_train(source: str | Path) -> Train:
+    """Read a train by its name, folder or file.
+
+    Raises
+    ------
+    OrchestratorError
+        With one line for each problem.
+    """
+    try:
+        return load_train(source)
+    except TrainFileError as error:
+        raise OrchestratorError(str(error)) from None
 
 
 def scenario_toml(scenario: Scenario) -> str:
@@ -108,8 +127,10 @@ def scenario_toml(scenario: Scenario) -> str:
     return "\n".join(_toml_lines(scenario.model_dump(mode="json", exclude_none=True), ())) + "\n"
 
 
-def _checked(toml: TomlSource, overrides: Mapping[str, Any], folder: Path, source: str) -> Scenario:
-    """Return what a file says with overrides in place of its values, or raise with all problems."""
+def _checked(
+    toml: TomlSource, overrides: Mapping[str, Any], folder: Path, source: str
+) -> tuple[Scenario, Train]:
+    """Return scenario and train of a file with overrides in place of its values, or raise all problems."""
     raw = replaced(toml.raw, overrides)
     problems: list[Problem] = []
     scenario = train = None
@@ -130,11 +151,11 @@ def _checked(toml: TomlSource, overrides: Mapping[str, Any], folder: Path, sourc
     if train is not None and scenario is not None:
         problems += time_problems(scenario, train)
         problems += unbalance_problems(scenario, train)
-    if scenario is None or problems:
+    if scenario is None or train is None or problems:
         # An override stands on no line.
         places = (((), text) if _holds(overrides, at) else (at, text) for at, text in problems)
         raise ScenarioError(source, list(toml.located(places)))
-    return scenario
+    return scenario, train
 
 
 def _holds(overrides: Mapping[str, Any], location: Location) -> bool:

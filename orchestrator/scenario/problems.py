@@ -103,6 +103,12 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
             f"step = {scenario.step!r}; allowed is at least {scenario.end / MOST_STEPS:.3g} s, a billionth "
             "of the run, which would never end",
         )
+    if scenario.coupling == "jacobi" and scenario.tolerance is not None:
+        yield (
+            ("tolerance",),
+            f"tolerance = {scenario.tolerance!r}; allowed is none with coupling jacobi, whose bearings see "
+            "the rotor a step late: what that neglects does not fall with the step; take gauss-seidel",
+        )
     if scenario.step > scenario.end:
         yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
     if scenario.event is not None and scenario.event.time >= scenario.end:

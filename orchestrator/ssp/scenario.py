@@ -21,6 +21,7 @@ from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.checks import film_problems
 
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
+_ALLOWED = ("end", "step", "coupling", "tolerance", "ledger")
 
 _FILM = {
     "diameter": "diameter",
@@ -51,10 +52,16 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     Raises
     ------
     SspError
-        When the coupling does not fit the connections.
+        When something else is to be replaced, or the coupling does not fit the connections.
     ScenarioError
         When times or speeds contradict one another.
     """
+    for key in overrides:
+        if key not in _ALLOWED:
+            raise SspError(
+                f"{path}: --{key.replace('_', '-')} is for scenarios; an SSP holds its FMUs and parameters, "
+                "allowed are --end, --step, --coupling, --tol, --ledger"
+            )
     structure, train = contents.structure, contents.train
     usual = "linear-implicit" if contents.wiring is Wiring.LAW else "gauss-seidel"
     coupling = overrides.get("coupling") or structure.coupling or usual

@@ -17,10 +17,9 @@ from threading import Thread
 from types import FrameType
 from typing import IO
 
-from orchestrator import exit_status
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.interrupt import handled, raise_at_once
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
 from orchestrator.results.folder import partial_folder
 
 COMMAND = (sys.executable, "-m", "orchestrator.cli.main", "run")
@@ -88,8 +87,8 @@ class Ended:
     def status(self) -> int:
         """Exit status of a command that ends with this run."""
         if self.outcome == DIED:
-            return exit_status.PROCESS_DIED
-        return exit_status.of_outcome(next(item for item in Outcome if item.value == self.outcome))
+            return PROCESS_DIED
+        return next(item for item in Outcome if item.value == self.outcome).status
 
     def text(self) -> str:
         """How it ended, for people."""
@@ -153,9 +152,9 @@ class _Process:
         with self.errors as file:
             file.seek(0)
             error = file.read().strip()
-        if code == exit_status.INPUT_ERROR:
+        if code == INPUT_ERROR:
             raise OrchestratorError(error.removeprefix("error: "))
-        outcome = next((one for one, status in exit_status.STATUS.items() if status == code), None)
+        outcome = next((one for one in Outcome if one.status == code), None)
         if asked is not None and code == -asked:  # before it could listen
             outcome = Outcome.TERMINATED if asked == signal.SIGTERM else Outcome.INTERRUPTED
             error = "before the first step"

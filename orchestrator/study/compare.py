@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from orchestrator.results.certificate import at_half_step
+from orchestrator.case.certify import at_half_step
 from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.statistics import analysed_bearing
 from orchestrator.scenario.file import scenario_toml, with_overrides

@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmus.build.builder import build
-from orchestrator.case.simulate import Execution, Result, Stage, simulate
+from orchestrator.case.progress import Stage
+from orchestrator.case.simulate import Execution, simulate
 from orchestrator.fmi.file import FmuStore
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import Start, find_start
+from orchestrator.results.result import Result
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train

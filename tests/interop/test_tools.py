@@ -8,9 +8,10 @@ import pytest
 
 from fmus.build.archive import write_archive
 from fmus.build.builder import build
+from orchestrator.case.case import ssp_case
+from orchestrator.case.simulate import execute
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
-from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import Component, Structure
 from orchestrator.ssp.writer import documents
 from tests.interop.tools import LAG, TOOLS, forces, missing, start
@@ -24,8 +25,8 @@ def rms(values):
 
 def reference(ssp, end, step=2.5e-5):
     """Forces (records, 2) by bearing at multiples of H: the orchestrator's converged run."""
-    with SspRun(ssp, {"end": end, "step": step}) as run:
-        result = run.simulate()
+    with ssp_case(ssp, {"end": end, "step": step}) as case:
+        result = execute(case)
     assert result.outcome.ok, result.message
     return result.record["time"].values, result.record["force"]
 

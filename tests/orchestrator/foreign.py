@@ -4,8 +4,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
 from orchestrator.cli.main import app
+from orchestrator.outcome import INPUT_ERROR
 
 
 def call(*arguments):
@@ -18,7 +18,7 @@ def refused(path, room, fmus):
     out = room.parent / "out"
     given = (path,) if path.suffix == ".ssp" else ("small", "--depth", "v3", "--depth-at", f"rear={path}")
     result = call("run", *given, "--trust", "--fmus", fmus, "--out", out)
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert not list(room.iterdir()) and not out.exists()
     (text,) = result.stderr.strip().splitlines()
     assert path.name in text

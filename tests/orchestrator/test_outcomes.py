@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from orchestrator import exit_status
-from orchestrator.case.simulate import Result, Timing, simulate
+from orchestrator.case.simulate import simulate
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master import assembly
 from orchestrator.master.coupling import LinearImplicit
 from orchestrator.master.journal_in_words import with_state
 from orchestrator.master.stepping import NotFinite, StepCounts, Stepper
 from orchestrator.master.time_loop import RunEnd
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome, outcome_table
+from orchestrator.results.result import Result, Timing
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import to_text
 from tests.faults import fault
@@ -45,14 +45,13 @@ def with_springs(monkeypatch, name, **values):
     "unit",
     "an outcome without an exit status, or with that of another",
     "every outcome has a status of its own, and 0 is that of a finished run alone",
-    guard="orchestrator.exit_status:STATUS",
+    guard="orchestrator.outcome:Outcome.FILM_FAILED",
 )
 def test_every_outcome_has_its_own_exit_status_and_advice():
-    assert set(exit_status.STATUS) == set(Outcome)
-    assert len(set(exit_status.STATUS.values())) == len(Outcome)
-    assert [outcome for outcome in Outcome if exit_status.of_outcome(outcome) == 0] == [Outcome.FINISHED]
-    reserved = {1, exit_status.INPUT_ERROR, exit_status.OTHER_OUTCOME, exit_status.PROCESS_DIED}
-    assert not reserved & set(exit_status.STATUS.values())
+    statuses = {outcome.status for outcome in Outcome}
+    assert len(statuses) == len(Outcome)
+    assert [outcome for outcome in Outcome if outcome.status == 0] == [Outcome.FINISHED]
+    assert not {1, INPUT_ERROR, PROCESS_DIED} & statuses
     assert len({outcome.advice for outcome in Outcome}) == len(Outcome)
     for outcome in Outcome:
         assert re.fullmatch(r"[a-z]+(-[a-z]+)*", outcome.value)
@@ -64,7 +63,7 @@ def test_old_numbers_stay():
     names = (
         "finished no-equilibrium step-refused unit-failed not-finite tolerance-missed unresolved interrupted"
     )
-    found = {outcome.value: status for outcome, status in exit_status.STATUS.items()}
+    found = {outcome.value: outcome.status for outcome in Outcome}
     assert [found[name] for name in names.split()] == [0, 3, 4, 5, 6, 9, 10, 130]
 
 
@@ -179,11 +178,11 @@ def test_the_summary_says_outcome_status_message_and_advice(outcome):
     timing = Timing(1, 1, 1, 1, 1, 1, 1)
     found = summarise(Result(record, outcome, "LP2-front: gap below zero", timing, 11000, 22000))
     data = json.loads(found.to_json())
-    assert (data["outcome"], data["exit_status"]) == (outcome.value, exit_status.of_outcome(outcome))
+    assert (data["outcome"], data["exit_status"]) == (outcome.value, outcome.status)
     assert (data["advice"], data["message"]) == (outcome.advice, "LP2-front: gap below zero")
     assert data["finished"] is False
     text = " ".join(to_text(found).split())
-    assert f"{outcome.value} (exit status {exit_status.of_outcome(outcome)})" in text
+    assert f"{outcome.value} (exit status {outcome.status})" in text
     assert outcome.advice in text and "LP2-front: gap below zero" in text
 
 
@@ -204,4 +203,4 @@ def test_a_unit_error_carries_the_outcome():
 def test_the_readme_has_every_outcome_with_its_status_and_advice():
     readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
     table = re.search(r"<!-- outcomes -->\n(.*?)<!-- /outcomes -->", readme, re.DOTALL)
-    assert table and table[1].strip() == exit_status.outcome_table().strip()
+    assert table and table[1].strip() == outcome_table().strip()

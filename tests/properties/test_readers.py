@@ -11,7 +11,9 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
 from fmus.build.builder import build
-from orchestrator.case.simulate import Execution, Stage, simulate
+from orchestrator.case.case import ssp_case
+from orchestrator.case.progress import Stage
+from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import FmuError, OrchestratorError, ScenarioError
 from orchestrator.fmi.file import FmuStore
 from orchestrator.observers import checkpoint
@@ -19,7 +21,6 @@ from orchestrator.observers.checkpoint import CheckpointError
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.ssp.export import export
-from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.file import DATA, TrainFileError, load_train
 from rotor_fmu.train.train import Train
@@ -132,7 +133,7 @@ def test_damaged_ssp(ssp, room, tmp_path_factory, data):
     path = tmp_path_factory.getbasetemp() / "damaged.ssp"
     zipped(ssp | {name: text.encode("utf-8", "replace")}, path)
     try:
-        with SspRun(path):
+        with ssp_case(path):
             event("read")
     except OrchestratorError as error:
         said(error, str(path))
@@ -146,7 +147,7 @@ def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
     path = tmp_path_factory.getbasetemp() / "damaged.ssp"
     zipped({name: ssp[name] for name in TEXTS}, path)
     path.write_bytes(data.draw(bytes_of(path.read_bytes())))
-    with pytest.raises((SspError, FmuError)) as info, SspRun(path):
+    with pytest.raises((SspError, FmuError)) as info, ssp_case(path):
         pass
     said(info.value, str(path), "damaged.ssp")
     assert not list(room.iterdir())

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import ClassVar
+from collections.abc import Callable, Mapping
 
 from orchestrator.master.coupling.base import Advance, Coupled, Coupling, NotConverged
 from orchestrator.master.coupling.gauss_seidel import GaussSeidel
@@ -27,33 +26,14 @@ __all__ = [
 ]
 
 
-class _Schemes(Mapping[str, Coupling]):
-    """Schemes by name; each look-up makes a fresh one, without memory of another run."""
-
-    _makers: ClassVar[dict[str, Callable[[], Coupling]]] = {
-        "linear-implicit": LinearImplicit,
-        "newton": Newton,
-        "iqn-ils": IqnIls,
-        "gauss-seidel": GaussSeidel,
-        "jacobi": Jacobi,
-    }
-
-    def __getitem__(self, name: str) -> Coupling:
-        return self._makers[name]()
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._makers)
-
-    def __len__(self) -> int:
-        return len(self._makers)
-
-
-SCHEMES = _Schemes()
-"""Schemes by their name in scenarios; each look-up makes a fresh one."""
+SCHEMES: Mapping[str, type[Coupling]] = {
+    scheme.name: scheme for scheme in (LinearImplicit, Newton, IqnIls, GaussSeidel, Jacobi)
+}
+"""Schemes by their name in scenarios."""
 
 
 def make_scheme(name: str, tolerance: float | None = None) -> Coupling:
-    """A fresh scheme.
+    """Make the scheme of this name, without memory of another run.
 
     Parameters
     ----------
@@ -62,9 +42,5 @@ def make_scheme(name: str, tolerance: float | None = None) -> Coupling:
     tolerance : float, optional
         Of the schemes that iterate.
     """
-    if tolerance is not None:
-        if name == Newton.name:
-            return Newton(tolerance)
-        if name == IqnIls.name:
-            return IqnIls(tolerance)
-    return SCHEMES[name]
+    scheme: Callable[..., Coupling] = SCHEMES[name]
+    return scheme(tolerance) if tolerance is not None and SCHEMES[name].iterates else scheme()

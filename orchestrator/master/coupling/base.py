@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,7 @@ from numpy.typing import NDArray
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.graph import Graph, Group
 from orchestrator.master.rollback import Rollback
-from orchestrator.master.system import Wiring
-
-if TYPE_CHECKING:
-    from orchestrator.master.system import System
+from orchestrator.master.system import System, Wiring
 
 
 class Advance(NamedTuple):
@@ -65,19 +62,20 @@ class Coupling(Protocol):
 
     Its start values are the outputs that the system's groups fetched last, and it leaves those at
     the end of the step there.  What it keeps from step to step only speeds it up, and is in `memory`.
+
+    Attributes
+    ----------
+    name : str
+        In scenarios.
+    wiring : Wiring
+        What the bearings must give the rotor.
+    iterates : bool
+        Whether it repeats a step until the defect meets its tolerance; then it sets the mark itself.
     """
 
-    @property
-    def name(self) -> str:
-        """Name in scenarios."""
-
-    @property
-    def wiring(self) -> Wiring:
-        """What the bearings must give the rotor."""
-
-    @property
-    def iterates(self) -> bool:
-        """Whether it repeats a step until the defect meets its tolerance; then it sets the mark itself."""
+    name: ClassVar[str]
+    wiring: ClassVar[Wiring]
+    iterates: ClassVar[bool]
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:
@@ -101,7 +99,7 @@ class Coupling(Protocol):
 class Memoryless:
     """A scheme that takes each step once and keeps nothing."""
 
-    iterates = False
+    iterates: ClassVar[bool] = False
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:

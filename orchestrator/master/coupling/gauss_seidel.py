@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from orchestrator.master.coupling.base import Sequential
 from orchestrator.master.system import Wiring
 
@@ -9,5 +11,5 @@ from orchestrator.master.system import Wiring
 class GaussSeidel(Sequential):
     """Explicit and sequential, rotor then bearings; force only."""
 
-    name = "gauss-seidel"
-    wiring = Wiring.FORCE
+    name: ClassVar[str] = "gauss-seidel"
+    wiring: ClassVar[Wiring] = Wiring.FORCE

@@ -60,8 +60,8 @@ class IqnIls:
     wiring: ClassVar[Wiring] = Wiring.FORCE
     iterates: ClassVar[bool] = True
 
-    _history: list[tuple[Array, Array]] = field(default_factory=list)
-    _size: Array | None = None
+    _history: list[tuple[Array, Array]] = field(default_factory=list, init=False)
+    _size: Array | None = field(default=None, init=False)
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:

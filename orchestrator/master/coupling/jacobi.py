@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from orchestrator.master.coupling.base import Advance, Coupled, Memoryless
 from orchestrator.master.system import Wiring
 
@@ -12,8 +14,8 @@ class Jacobi(Memoryless):
     The bearings see the rotor one step late, so the defect is that of the step before.
     """
 
-    name = "jacobi"
-    wiring = Wiring.FORCE
+    name: ClassVar[str] = "jacobi"
+    wiring: ClassVar[Wiring] = Wiring.FORCE
 
     def advance(self, system: Coupled, time: float, step: float) -> Advance:
         """Feed all, step all, read all."""

@@ -14,6 +14,8 @@ alternated.
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from orchestrator.master.coupling.base import Sequential
 from orchestrator.master.system import Wiring
 
@@ -21,5 +23,5 @@ from orchestrator.master.system import Wiring
 class LinearImplicit(Sequential):
     """Rotor on the affine law, then the bearings on the rotor's new state."""
 
-    name = "linear-implicit"
-    wiring = Wiring.LAW
+    name: ClassVar[str] = "linear-implicit"
+    wiring: ClassVar[Wiring] = Wiring.LAW

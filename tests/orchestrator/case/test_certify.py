@@ -7,12 +7,14 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from orchestrator.case.simulate import simulate
-from orchestrator.commands.run import RunRequest, carry_out_request
+from orchestrator.case.case import folder_case
+from orchestrator.case.certify import at_half_step, certify
+from orchestrator.case.simulate import execute, simulate
+from orchestrator.commands.run import RunRequest, run_case
 from orchestrator.outcome import Outcome
-from orchestrator.results.certificate import at_half_step, certify
 from orchestrator.results.record_files import read_record
 from orchestrator.results.summary import summarise
+from orchestrator.scenario.file import train_of
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -56,12 +58,12 @@ def test_a_run_equals_itself(fmus, tmp_path):
     assert all(not d.difference for d in certify(summary, summary).differences)
 
 
-def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
-    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: None)
-    scenario = toy_scenario(tmp_path, event=BLADE, end=0.1)
+def test_the_command_writes_the_certificate(fmus, tmp_path):
+    scenario = toy_scenario(tmp_path, event=BLADE, end=0.1, ledger=True)
     out, console = tmp_path / "out", Console(quiet=True)
     request = RunRequest("toy", out=out, fmus=fmus, formats=(), certify=True)
-    assert carry_out_request(request, scenario, console, console) == 0
+    with folder_case(scenario, train_of(scenario), fmus) as case:
+        assert run_case(case, request, console, console) == 0
     text = (out / "summary.txt").read_text()
     assert "at half the step, 0.5 ms: largest changes force mean" in " ".join(text.split())
     data = json.loads((out / "summary.json").read_text())
@@ -74,22 +76,21 @@ def test_the_command_writes_the_certificate(fmus, tmp_path, monkeypatch):
     "process",
     "the certificate's run at half the step fails",
     "the results are written; exit status of that run, and that it was the certificate's",
-    guard="orchestrator.commands.run:conclude",
+    guard="orchestrator.case.conclude:conclude",
 )
 def test_a_failed_certificate_is_no_success(fmus, tmp_path, monkeypatch):
-    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: None)
-    whole = simulate
 
-    def failing_at_half(scenario, *arguments):
-        result = whole(scenario, *arguments)
+    def failing_at_half(case, *arguments):
+        result = execute(case, *arguments)
         failed = {"outcome": Outcome.TOLERANCE_MISSED, "message": "at t = 0.02 s: too far"}
-        return replace(result, **failed) if scenario.step < 1e-3 else result
+        return replace(result, **failed) if case.scenario.step < 1e-3 else result
 
-    monkeypatch.setattr("orchestrator.commands.run.simulate", failing_at_half)
+    monkeypatch.setattr("orchestrator.commands.run.execute", failing_at_half)
     scenario = toy_scenario(tmp_path, event=BLADE, end=0.05)
     said = StringIO()
     request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)
-    status = carry_out_request(request, scenario, Console(quiet=True), Console(file=said, width=200))
+    with folder_case(scenario, train_of(scenario), fmus) as case:
+        status = run_case(case, request, Console(quiet=True), Console(file=said, width=200))
     assert status == 9
     assert "tolerance-missed (exit status 9): the certificate's run at half the step" in said.getvalue()
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["outcome"] == "finished"

@@ -5,8 +5,7 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from orchestrator.case.progress import Pace, show_progress
-from orchestrator.case.simulate import Stage
+from orchestrator.case.progress import Pace, Stage, show_progress
 
 
 def test_pace_counts_from_the_start_of_the_time_loop():

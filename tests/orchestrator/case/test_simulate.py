@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from orchestrator.case import simulate as simulate_module
-from orchestrator.case.simulate import Stage, simulate
+from orchestrator.case import case as case_module
+from orchestrator.case.progress import Stage
+from orchestrator.case.simulate import simulate
 from orchestrator.errors import FmuError
 from orchestrator.master.stepping import DEEPEST
 from orchestrator.outcome import Outcome
@@ -167,14 +168,14 @@ def test_progress_announces_stages_and_simulated_time(fmus, tmp_path):
 
 def test_a_missing_fmu_is_named_and_nothing_is_left_behind(fmus, tmp_path, monkeypatch):
     folders = []
-    store = simulate_module.FmuStore
+    store = case_module.FmuStore
 
     def watched():
         made = store()
-        folders.append(made._folder)
+        folders.append(made.folder)
         return made
 
-    monkeypatch.setattr(simulate_module, "FmuStore", watched)
+    monkeypatch.setattr(case_module, "FmuStore", watched)
     with pytest.raises(FmuError, match=r"bearing_v2\.fmu: no such file"):
         (fmus / "bearing_v2.fmu").rename(fmus / "hidden")
         try:

@@ -12,14 +12,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
-from orchestrator.case.simulate import Result, Timing
 from orchestrator.cli import main as cli
 from orchestrator.cli.main import app
 from orchestrator.commands import run as run_command
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.figures.write import FORMATS
 from orchestrator.results.record_files import read_record
+from orchestrator.results.result import Result, Timing
 from orchestrator.scenario import scenario
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
@@ -62,7 +61,7 @@ def refused(here, *arguments):
     """Text of an input error that left nothing behind."""
     before = files(here)
     result = call(*arguments)
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "Traceback" not in result.output
     assert files(here) == before
     return re.sub(r"\s+", " ", re.sub(r"[│╭╮╰╯─]", " ", result.output))
@@ -75,7 +74,7 @@ def test_help_mentions_every_option_and_exit_status(here):
     )
     for option in options.split():
         assert f"{option} " in text
-    for status in {0, 1, 2, *exit_status.STATUS.values()}:
+    for status in {0, 1, 2, *(outcome.status for outcome in Outcome)}:
         assert re.search(rf"\b{status}  ", text)
     assert "bladeloss run --depth-at LP2-front=v2" in text
     commands = call("--help").output
@@ -153,7 +152,7 @@ def test_mistakes_in_a_scenario_name_file_key_and_value(here, old, new, named):
     "input",
     "--out that names a folder with other files in it",
     "exit 2; the folder, `no earlier result`; nothing is written",
-    guard="orchestrator.commands.run:carry_out_request",
+    guard="orchestrator.commands.run:run_case",
 )
 def test_alien_folders_are_not_written_to(here, monkeypatch):
     monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: pytest.fail("went on"))
@@ -239,7 +238,7 @@ def test_an_interrupted_run_keeps_what_was_simulated(short_run):
                 break
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate()
-    assert process.returncode == exit_status.STATUS[Outcome.INTERRUPTED], errors
+    assert process.returncode == Outcome.INTERRUPTED.status, errors
     assert "interrupted" in errors and "Traceback" not in errors
     assert not (folder / "cut").exists()
     if (folder / "cut-partial").exists():  # absent when the signal came before the second record
@@ -258,7 +257,7 @@ def test_a_partial_run_is_marked_and_replaces_nothing(here, monkeypatch):
     monkeypatch.setattr(run_command, "simulate", failing(Outcome.STEP_REFUSED, 1.1))
     monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: [])
     result = call("run", "--out", "out")
-    assert result.exit_code == exit_status.STATUS[Outcome.STEP_REFUSED]
+    assert result.exit_code == Outcome.STEP_REFUSED.status
     assert "the gap closed" in result.output
     assert [path.name for path in here.iterdir()] == ["out-partial"]
     assert (
@@ -279,7 +278,7 @@ def test_a_run_that_never_began_leaves_nothing(here, monkeypatch):
     monkeypatch.setattr(run_command, "simulate", simulate)
     monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: [])
     result = call("run", "small")
-    assert result.exit_code == exit_status.STATUS[Outcome.NO_EQUILIBRIUM]
+    assert result.exit_code == Outcome.NO_EQUILIBRIUM.status
     assert list(here.iterdir()) == []
 
 

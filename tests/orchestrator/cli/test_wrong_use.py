@@ -3,8 +3,8 @@
 import pytest
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
 from orchestrator.cli.main import app
+from orchestrator.outcome import INPUT_ERROR
 from tests.faults import fault
 
 
@@ -51,7 +51,7 @@ CASES = [
         "run small --bearing frnt",
         "--bearing frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "--bearing that the train lacks", "exit 2; one line: the likely name, all bearings",
-        guard="orchestrator.commands.run:check_bearing",
+        guard="orchestrator.case.prepare:prepare",
     ),
     case(
         "run --dept v2", "No such option: --dept",
@@ -76,7 +76,7 @@ def test_wrong_use_is_one_line_and_leaves_nothing(tmp_path, monkeypatch, argumen
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: pytest.fail("went on"))
     result = CliRunner().invoke(app, arguments, prog_name="bladeloss")
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     (line,) = result.output.splitlines()
     assert line.startswith("error: ") and words in line
     assert list(tmp_path.iterdir()) == []
@@ -84,7 +84,7 @@ def test_wrong_use_is_one_line_and_leaves_nothing(tmp_path, monkeypatch, argumen
 
 def test_without_a_command_its_help_is_shown():
     result = CliRunner().invoke(app, [], prog_name="bladeloss")
-    assert result.exit_code == exit_status.INPUT_ERROR
+    assert result.exit_code == INPUT_ERROR
     assert result.output.count("Usage: bladeloss") == 1 and "export-ssp" in result.output
 
 

@@ -14,7 +14,6 @@ import xarray as xr
 from rich.console import Console
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
 from orchestrator.cli.main import app
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.file import FmuStore
@@ -22,7 +21,7 @@ from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.linear import case as linear_case
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.figures.campbell import free_figure
 from orchestrator.scenario.file import load_scenario, train_of
 from rotor_fmu.train.file import load_train
@@ -179,7 +178,7 @@ def test_help_teaches(command):
 def test_wrong_input_is_named_and_leaves_nothing(tmp_path, monkeypatch, arguments, named):
     monkeypatch.chdir(tmp_path)
     result = CliRunner().invoke(app, [*arguments], env={"COLUMNS": "200", "TERM": "dumb"})
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     text = re.sub(r"\s+", " ", result.output)
     assert all(word in text for word in named)
     assert list(tmp_path.iterdir()) == []
@@ -217,7 +216,7 @@ def test_a_start_that_fails_has_its_own_exit_status(folder, tmp_path, monkeypatc
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(linear_case, "operating_point", fail)
     result = CliRunner().invoke(app, ["modes", "small", "--fmus", str(folder / "fmus")])
-    assert result.exit_code == exit_status.STATUS[outcome]
+    assert result.exit_code == outcome.status
     assert f"error: {error}. {outcome.advice}" in result.output
     assert list(tmp_path.iterdir()) == []
 

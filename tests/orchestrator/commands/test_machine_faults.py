@@ -2,12 +2,12 @@
 
 import pytest
 
-from orchestrator import exit_status
+from orchestrator.case import conclude as conclude_case
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.commands import campbell as campbell_command
 from orchestrator.commands import run as run_command
 from orchestrator.observers import checkpoint
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results import files as result_files
 from orchestrator.results import folder as result_folder
 from orchestrator.results.record_files import read_record
@@ -16,7 +16,7 @@ from tests.orchestrator.foreign import call
 from tests.orchestrator.limits import under_limit
 from tests.orchestrator.process import done
 
-NOT_WRITTEN = exit_status.STATUS[Outcome.NOT_WRITTEN]
+NOT_WRITTEN = Outcome.NOT_WRITTEN.status
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def run(short, fmus, *options):
 )
 def test_a_full_disk_at_the_end_of_a_run(short, small_fmus, monkeypatch):
     with monkeypatch.context() as patch:
-        patch.setattr(run_command, "write_all", under_limit(10_000, run_command.write_all))
+        patch.setattr(conclude_case, "write_all", under_limit(10_000, conclude_case.write_all))
         result, out = run(short, small_fmus, "--no-figures", "--checkpoint", 0.004)
     assert result.exit_code == NOT_WRITTEN == 13, result.output
     assert f"not-written (exit status 13): {out}: results not written: File too large" in result.stderr
@@ -122,12 +122,12 @@ def test_a_checkpoint_that_cannot_be_written(short, small_fmus, monkeypatch):
     "machine",
     "a place for checkpoints that is no folder, or cannot be written to",
     "exit 2 before the run; path",
-    guard="orchestrator.commands.run:carry_out_request",
+    guard="orchestrator.case.prepare:prepare",
 )
 def test_checkpoints_that_could_never_be_written(short, small_fmus):
     (short.parent / "out-checkpoint").write_text("mine")
     result, _ = run(short, small_fmus, "--checkpoint", 0.002)
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "out-checkpoint: is a file" in result.stderr and "loading" not in result.output
 
 
@@ -139,7 +139,7 @@ def test_checkpoints_that_could_never_be_written(short, small_fmus):
 )
 def test_results_that_could_never_be_written(short, small_fmus):
     result = call("run", short, "--fmus", small_fmus, "--out", "/proc/out")
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "/proc/out: nothing can be written in /proc: " in result.stderr and "loading" not in result.output
 
 
@@ -154,7 +154,7 @@ def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
     monkeypatch.setattr(result_folder, "free_room", lambda _: 1000)
     out = short.parent / "out"
     result = call(command, short, "--fmus", small_fmus, "--out", out)
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert f"{out}: the record takes 0." in result.stderr and "0.001 are free" in result.stderr
     assert "loading" not in result.output and not out.exists()
 
@@ -167,7 +167,7 @@ def test_a_disk_with_too_little_room(command, short, small_fmus, monkeypatch):
 )
 def test_fmus_that_cannot_be_built(short):
     result, _ = run(short, "/proc/fmus")
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "/proc/fmus: FMUs cannot be built there: " in result.stderr
 
 

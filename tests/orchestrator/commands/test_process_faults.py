@@ -7,13 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from orchestrator import exit_status
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.folder import ResultFolderError, check_folder, result_folder
-from orchestrator.results.folder_lock import claim
+from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call
@@ -69,7 +68,7 @@ def test_a_signal_ends_a_run_that_can_go_on(number, outcome, whole, small_fmus, 
         time.sleep(0.01)
     process.send_signal(number)
     said, errors = process.communicate(timeout=60)
-    assert process.returncode == exit_status.STATUS[outcome], said + errors
+    assert process.returncode == outcome.status, said + errors
     assert f"{outcome.value} (exit status {process.returncode})" in errors
     reached = checkpoint.read(saved.parent).time
     assert 0.0 < reached < 0.3
@@ -105,14 +104,14 @@ main()
     "process",
     "two runs to one folder at once",
     "exit 2 for the second; folder, `another run`; the first is not disturbed",
-    guard="orchestrator.results.folder_lock:_lock",
+    guard="orchestrator.results.folder_lock:lock_folder",
 )
 def test_two_runs_to_one_folder(small_fmus, tmp_path):
     out = tmp_path / "out"
     (tmp_path / "short.toml").write_text(SCENARIO)
-    with claim(out):
+    with lock_folder(out):
         result = call("run", tmp_path / "short.toml", "--fmus", small_fmus, "--out", out, "--no-figures")
-        assert result.exit_code == exit_status.INPUT_ERROR, result.output
+        assert result.exit_code == INPUT_ERROR, result.output
         assert f"{out}: another run is writing to it; --out takes a folder of its own" in result.stderr
         assert not out.exists()
     assert [path.name for path in tmp_path.iterdir()] == ["short.toml"]
@@ -120,10 +119,10 @@ def test_two_runs_to_one_folder(small_fmus, tmp_path):
 
 def test_a_claim_ends_with_its_run(tmp_path):
     for _ in range(2):
-        with claim(tmp_path / "a" / "out"):
-            with pytest.raises(ResultFolderError, match="another run"), claim(tmp_path / "a" / "out"):
+        with lock_folder(tmp_path / "a" / "out"):
+            with pytest.raises(ResultFolderError, match="another run"), lock_folder(tmp_path / "a" / "out"):
                 pass
-            with claim(tmp_path / "a" / "other"):
+            with lock_folder(tmp_path / "a" / "other"):
                 pass
     assert list(tmp_path.iterdir()) == []
 
@@ -178,7 +177,7 @@ def test_a_kill_while_results_are_replaced(moves, tmp_path):
     killed_in(work)
     assert "not complete: the process ended" in (out / "PARTIAL.txt").read_text()
     check_folder(out.with_name("else"))
-    with claim(out):
+    with lock_folder(out):
         results(out, "newer")
     assert sorted(path.name for path in out.iterdir()) == ["record.nc", "scenario.toml", "summary.json"]
     assert (out / "record.nc").read_text() == "newer"
@@ -189,7 +188,7 @@ def test_a_kill_while_results_are_replaced(moves, tmp_path):
     "process",
     "kill -9 while results are written",
     "the earlier results stay as they are; the next run removes what was half-written",
-    guard="orchestrator.results.folder_lock:claim",
+    guard="orchestrator.results.folder_lock:lock_folder",
 )
 def test_a_kill_while_results_are_written(tmp_path):
     out = tmp_path / "out"
@@ -203,7 +202,7 @@ def test_a_kill_while_results_are_written(tmp_path):
     killed_in(work)
     assert (out / "record.nc").read_text() == "old" and not (out / "PARTIAL.txt").exists()
     assert len(list(tmp_path.iterdir())) == 2
-    with claim(out):
+    with lock_folder(out):
         pass
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
@@ -228,5 +227,5 @@ def test_a_damaged_checkpoint(damage, tmp_path):
     with pytest.raises(CheckpointError, match="not a readable checkpoint"):
         checkpoint.read(path.parent)
     result = call("resume", tmp_path / "out")
-    assert result.exit_code == exit_status.INPUT_ERROR
+    assert result.exit_code == INPUT_ERROR
     assert f"{path}: not a readable checkpoint" in result.stderr

@@ -1,14 +1,21 @@
 """SSP on the command line: out of a scenario, and back into a run."""
 
 import json
+import shutil
+import signal
+import time
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
+from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.cli.main import app
+from orchestrator.observers import checkpoint
+from orchestrator.outcome import INPUT_ERROR
 from orchestrator.results.record_files import read_record
+from tests.faults import fault
+from tests.orchestrator.process import command, done
 
 SCENARIO = """\
 train = "small"
@@ -26,17 +33,17 @@ def exported(tmp_path_factory):
     """Folder with short.toml, short.ssp, short_force.ssp and the FMUs they were made with."""
     folder = tmp_path_factory.mktemp("command")
     (folder / "short.toml").write_text(SCENARIO)
-    done = call("export-ssp", folder / "short.toml", "--out", folder / "short.ssp", "--fmus", folder / "fmus")
-    assert done.exit_code == 0, done.output
-    assert "affine law" in done.output and "force only" in done.output
+    out = call("export-ssp", folder / "short.toml", "--out", folder / "short.ssp", "--fmus", folder / "fmus")
+    assert out.exit_code == 0, out.output
+    assert "affine law" in out.output and "force only" in out.output
     return folder
 
 
 def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, tmp_path):
     options = ("--no-figures", "--fmus", exported / "fmus", "--trust")
     for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
-        done = call("run", exported / source, *options, "--out", tmp_path / out)
-        assert done.exit_code == 0, done.output
+        ran = call("run", exported / source, *options, "--out", tmp_path / out)
+        assert ran.exit_code == 0, ran.output
     back, direct = read_record(tmp_path / "ssp"), read_record(tmp_path / "direct")
     np.testing.assert_array_equal(back["force"].values, direct["force"].values)
     assert back.attrs["ssp"].startswith("short.ssp sha256 ")
@@ -46,12 +53,57 @@ def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, tmp_
     options = ("--no-figures", "--fmus", exported / "fmus", "--trust", "--certify")
     certified = []
     for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
-        done = call("run", exported / source, *options, "--out", tmp_path / out)
-        assert done.exit_code == 0, done.output
+        ran = call("run", exported / source, *options, "--out", tmp_path / out)
+        assert ran.exit_code == 0, ran.output
         summary = json.loads((tmp_path / out / "summary.json").read_text())
         certified.append((summary["certificate"], summary["ledger"]))
     assert certified[0][0]["differences"] and certified[0][1]["unbalance"] > 0.0
     assert certified[0] == certified[1]
+
+
+def killed(path, fmus, out):
+    """Kill a run of an SSP behind its first checkpoint in the time loop."""
+    options = ("--fmus", fmus, "--out", out, "--no-figures", "--trust", "--checkpoint", "1e-3")
+    process = command("run", path, *options, "--step", "1e-6", "--end", "4e-3")
+    saved = checkpoint_folder(out)
+    while process.poll() is None and not (saved.is_dir() and checkpoint_time(saved) > 0.0):
+        time.sleep(0.02)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL and 0.0 < checkpoint_time(saved) < 4e-3
+
+
+def checkpoint_time(folder):
+    return checkpoint.read(folder).time if (folder / checkpoint.FILE).is_file() else 0.0
+
+
+def test_a_killed_run_goes_on_to_the_same_record(exported, tmp_path):
+    options = ("--fmus", exported / "fmus", "--no-figures", "--trust", "--step", "1e-6", "--end", "4e-3")
+    status, _, errors = done("run", exported / "short.ssp", *options, "--out", tmp_path / "whole")
+    assert status == 0, errors
+    killed(exported / "short.ssp", exported / "fmus", tmp_path / "out")
+    status, said, errors = done("resume", tmp_path / "out")
+    assert status == 0, errors
+    assert "Going on from t = 0.00" in said
+    assert read_record(tmp_path / "out").identical(read_record(tmp_path / "whole"))
+    assert not checkpoint_folder(tmp_path / "out").exists()
+
+
+@fault(
+    "process",
+    "a checkpoint of an SSP that has changed since",
+    "exit 2; both digests, `put that file back, or start anew`; the checkpoint is kept",
+    guard="orchestrator.case.prepare:_ssp_case",
+)
+def test_a_run_of_another_ssp_is_not_resumed(exported, tmp_path):
+    shutil.copy(exported / "short.ssp", tmp_path / "mine.ssp")
+    killed(tmp_path / "mine.ssp", exported / "fmus", tmp_path / "out")
+    shutil.copy(exported / "short_force.ssp", tmp_path / "mine.ssp")
+    resumed = call("resume", tmp_path / "out")
+    assert resumed.exit_code == INPUT_ERROR, resumed.output
+    assert "made with another" in resumed.stderr and "mine.ssp (sha256 " in resumed.stderr
+    assert resumed.stderr.count("\n") == 1 and not (tmp_path / "out").exists()
+    assert checkpoint_folder(tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(
@@ -61,15 +113,14 @@ def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, tmp_
         (("export-ssp", "shorter.toml"), ("no such scenario",)),
         (("run", "short.ssp", "--depth", "v2"), ("--depth is for scenarios", "--end, --step, --coupling")),
         (("run", "short.ssp", "--bearing", "raer", "--trust"), ("raer", "front, rear")),
-        (("run", "short.ssp", "--checkpoint", "0.1"), ("--checkpoint", "SSP cannot be resumed")),
         (("run", "none.ssp"), ("none.ssp", "no such file")),
     ],
-    ids=["suffix", "no scenario", "foreign option", "no bearing", "no resuming", "no file"],
+    ids=["suffix", "no scenario", "foreign option", "no bearing", "no file"],
 )
 def test_what_is_wrong_is_said_and_nothing_written(arguments, words, exported, monkeypatch):
     monkeypatch.chdir(exported)
     before = sorted(exported.rglob("*"))
-    done = call(*arguments, "--fmus", exported / "fmus")
-    assert done.exit_code == exit_status.INPUT_ERROR, done.output
-    assert all(word in " ".join(done.output.split()) for word in words), done.output
+    refused = call(*arguments, "--fmus", exported / "fmus")
+    assert refused.exit_code == INPUT_ERROR, refused.output
+    assert all(word in " ".join(refused.output.split()) for word in words), refused.output
     assert sorted(exported.rglob("*")) == before

@@ -5,9 +5,8 @@ from zipfile import ZipFile
 import pytest
 
 from fmus.build.archive import write_archive
-from orchestrator import exit_status
 from orchestrator.fmi.unit import Status, Unit, UnitError
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call, with_text
@@ -36,7 +35,7 @@ def run(small_fmus, tmp_path, monkeypatch):
 )
 def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
     result = run(faulty, "nan")
-    assert result.exit_code == exit_status.STATUS[Outcome.NOT_FINITE], result.output
+    assert result.exit_code == Outcome.NOT_FINITE.status, result.output
     assert "not-finite (exit status 6): at t = 0.0015 s: rear: " in result.stderr
     record = read_record(tmp_path / "out-partial")
     assert record["displacement"].notnull().all() and record.attrs["status"] == "not-finite"
@@ -67,7 +66,7 @@ def test_a_unit_of_another_platform(faulty, run, tmp_path):
         names = [name for name in archive.namelist() if not name.startswith("binaries/")]
         write_archive(tmp_path / "bare.fmu", {name: archive.read(name) for name in names})
     result = run(tmp_path / "bare.fmu", "")
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "bare.fmu: cannot be instantiated as rear: " in result.stderr
 
 
@@ -86,5 +85,5 @@ def test_a_unit_of_another_kind(small_fmus, run, tmp_path):
     exchange = '<ModelExchange modelIdentifier="bladeloss_bearing_v3"/>'
     path = with_text(source, tmp_path / "exchange.fmu", "modelDescription.xml", element, exchange)
     result = run(path, "")
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     assert "exchange.fmu: not an FMI 2.0 co-simulation unit" in result.stderr

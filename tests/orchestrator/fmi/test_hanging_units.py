@@ -5,12 +5,11 @@ import json
 import shutil
 import threading
 import time
-from types import FunctionType
+from types import SimpleNamespace
 
 import pytest
 
-from orchestrator import exit_status
-from orchestrator.fmi import unit, watchdog
+from orchestrator.fmi import watchdog
 from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record
@@ -60,14 +59,14 @@ def run(faulty, small_fmus, tmp_path):
                 "unit",
                 "an FMU in an endless loop, on a thread of its own",
                 HUNG,
-                guard="orchestrator.fmi.watchdog:_unit_calls",
+                guard="orchestrator.fmi.unit:Unit.do_step",
             ),
         ),
     ],
 )
 def test_a_unit_that_hangs_in_a_step(how, options, run, tmp_path):
     status, errors = run(how, "--budget", 1, *options)
-    assert status == exit_status.STATUS[Outcome.UNIT_HUNG] == 12, errors
+    assert status == Outcome.UNIT_HUNG.status == 12, errors
     assert "unit-hung (exit status 12)" in errors and "rear: fmi2DoStep has not come back for 1" in errors
     partial = tmp_path / "out-partial"
     assert "unit-hung at t = 0.00" in (partial / "PARTIAL.txt").read_text()
@@ -118,12 +117,12 @@ def test_native_units_are_called_without_the_lock(store, toy_fmus, tmp_path):
     assert type(native.library) is ctypes.CDLL
 
 
-def waiting(event):
-    """A call to a unit, as the watchdog sees it."""
-    call = FunctionType((lambda event: event.wait(10.0)).__code__, vars(unit), "do_step")
-    thread = threading.Thread(target=call, args=(event,))
-    thread.start()
-    return thread
+def watched(budget, given_up):
+    """A watchdog in the time loop, and the unit that it watches."""
+    unit = SimpleNamespace(name="rear", call=None)
+    dog = Watchdog(budget, given_up.append)
+    dog.patience, dog.partial, dog.units = 1.0, str, lambda: [unit]
+    return dog, unit
 
 
 @fault(
@@ -133,29 +132,33 @@ def waiting(event):
     guard="orchestrator.fmi.watchdog:Watchdog._watch",
 )
 def test_the_time_of_a_suspended_process_does_not_count(monkeypatch):
-    asleep, back, given_up = threading.Event(), threading.Event(), []
+    asleep, given_up = threading.Event(), []
     clock = time.monotonic
     monkeypatch.setattr(watchdog.time, "monotonic", lambda: clock() + 1e3 * asleep.is_set())
-    with Watchdog(3.0, given_up.append) as dog:
-        dog.patience, dog.partial = 1.0, str
-        thread = waiting(back)
+    dog, unit = watched(3.0, given_up)
+    with dog:
+        unit.call = ["fmi2DoStep"]
         time.sleep(0.6)
         asleep.set()
         time.sleep(0.6)
         assert not dog.tripped
-        back.set()
-        thread.join()
     assert given_up == []
 
 
 def test_calls_that_come_back_do_not_add_up():
     given_up = []
-    with Watchdog(0.4, given_up.append) as dog:
-        dog.patience, dog.partial = 1.0, str
+    dog, unit = watched(0.4, given_up)
+    with dog:
         for _ in range(8):
-            back = threading.Event()
-            thread = waiting(back)
+            unit.call = ["fmi2DoStep"]
             time.sleep(0.1)
-            back.set()
-            thread.join()
     assert given_up == []
+
+
+def test_one_call_that_lasts_adds_up():
+    given_up = []
+    dog, unit = watched(0.4, given_up)
+    with dog:
+        unit.call = ["fmi2DoStep"]
+        time.sleep(1.0)
+    assert len(given_up) == 1 and "rear: fmi2DoStep has not come back for 0." in given_up[0]

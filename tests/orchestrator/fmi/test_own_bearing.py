@@ -8,12 +8,12 @@ import pytest
 from pythonfmu.builder import FmuBuilder
 
 from fmus.build.builder import build
-from orchestrator.case.simulate import simulate
+from orchestrator.case.case import ssp_case
+from orchestrator.case.simulate import execute, simulate
 from orchestrator.errors import PortError, ScenarioError
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
-from orchestrator.ssp.simulate import SspRun
 from tests.faults import fault
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "spring_bearing.py"
@@ -51,8 +51,8 @@ def test_it_carries_its_load_and_follows_its_law(own, fmus):
 
 def test_it_travels_in_the_ssp(own, fmus, tmp_path):
     path, _ = export(scenario(own), fmus, tmp_path / "own.ssp", "own")
-    with SspRun(path) as run:
-        back = run.simulate().record
+    with ssp_case(path) as case:
+        back = execute(case).record
     np.testing.assert_array_equal(back["force"].values, simulate(scenario(own), fmus).record["force"].values)
 
 

@@ -10,11 +10,11 @@ from pythonfmu.builder import FmuBuilder
 from fmus.build.archive import write_archive
 from fmus.build.builder import bearing_recipe, rotor_recipe, write
 from fmus.build.own import is_own
-from orchestrator import exit_status
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.fmi import trust
 from orchestrator.fmi.trust import UntrustedError, require_trust
 from orchestrator.observers import checkpoint
+from orchestrator.outcome import INPUT_ERROR
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from rotor_fmu.train.file import load_train
@@ -38,7 +38,7 @@ def short(tmp_path):
 
 def untrusted(result, name):
     """The message for a file that may not run."""
-    assert result.exit_code == exit_status.INPUT_ERROR, result.output
+    assert result.exit_code == INPUT_ERROR, result.output
     (text,) = result.stderr.strip().splitlines()
     assert name in text and "native code" in text and "--trust" in text
     return text
@@ -57,7 +57,7 @@ def nothing_runs(monkeypatch):
     "archive",
     "an FMU of somebody else, without terminal and without `--trust`",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    guard="orchestrator.commands.run:carry_out_request",
+    guard="orchestrator.case.prepare:prepare",
 )
 def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_path, nothing_runs):
     arguments = ("run", short, "--depth-at", f"rear={spring}", "--fmus", small_fmus, "--out", tmp_path / "o")
@@ -100,7 +100,7 @@ def foreign_ssp(ssp, bearing, target):
     "archive",
     "an SSP in which an FMU has our name and GUID, but other code",
     "exit 2; archive, FMU in it, `native code`, `--trust`; nothing of it runs",
-    guard="orchestrator.commands.run_ssp:run_ssp",
+    guard="orchestrator.case.prepare:prepare",
 )
 def test_an_ssp_with_doctored_code(small_ssp, small_fmus, tmp_path, nothing_runs):
     script = next(

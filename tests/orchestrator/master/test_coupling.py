@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from orchestrator.master.coupling import SCHEMES, GaussSeidel, Jacobi, LinearImplicit
+from orchestrator.master.coupling import SCHEMES, GaussSeidel, Jacobi, LinearImplicit, make_scheme
 from orchestrator.master.system import Wiring
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 
@@ -49,7 +49,7 @@ def test_explicit_couplings_are_of_first_order(store, toy_fmus, scheme):
 def test_a_stiff_bearing_upsets_explicit_couplings_only(store, toy_fmus, name):
     """At omega H = 2.8; this rotor lets the wrench run linearly, which is stable up to 2 sqrt(3)."""
     stiff = {"stiffness": 8e8, "damping": 1e6}
-    scheme = SCHEMES[name]
+    scheme = make_scheme(name)
     system = released(store, toy_fmus, scheme.wiring, **stiff)
     path = motion(scheme, system, 1e-3, END)
     system.close()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from orchestrator.master.coupling import SCHEMES
+from orchestrator.master.coupling import SCHEMES, make_scheme
 from orchestrator.master.system import Wiring
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 
@@ -15,7 +15,7 @@ EXPLICIT = ("jacobi", "gauss-seidel")
 @pytest.mark.parametrize("name", SCHEMES)
 def test_every_coupling_converges_to_the_exact_motion_with_its_order(name, store, toy_fmus):
     """Second order on the affine law; first order where the rotor holds a force over the step."""
-    scheme, errors = SCHEMES[name], []
+    scheme, errors = make_scheme(name), []
     for step in STEPS:
         system = released(store, toy_fmus, scheme.wiring)
         times = step * np.arange(round(END / step) + 1)

@@ -4,7 +4,7 @@ import signal
 
 import pytest
 
-from orchestrator.case.simulate import Stage
+from orchestrator.case.progress import Stage
 from orchestrator.master.interrupt import interrupt_between_steps
 from tests.faults import fault
 

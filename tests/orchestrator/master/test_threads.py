@@ -5,7 +5,7 @@ import pytest
 
 from orchestrator.case.simulate import Execution, default_threads, simulate
 from orchestrator.fmi.unit import Status, UnitError
-from orchestrator.master.threads import Crew
+from orchestrator.master.threads import StepThreads
 from orchestrator.outcome import Outcome
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
@@ -29,7 +29,7 @@ class Counter:
 @pytest.mark.parametrize("threads", [1, 2, 3, 8])
 def test_every_unit_steps_once(threads):
     units = [Counter(str(k)) for k in range(7)]
-    crew = Crew(units, threads)
+    crew = StepThreads(units, threads)
     crew.step(0.5, 1e-3)
     crew.close()
     assert [unit.steps for unit in units] == [[(0.5, 1e-3)]] * 7
@@ -39,12 +39,12 @@ def test_every_unit_steps_once(threads):
     "unit",
     "units that fail at the same time on several threads",
     "the error of the first in their order, as on one thread",
-    guard="orchestrator.master.threads:Crew.step",
+    guard="orchestrator.master.threads:StepThreads.step",
 )
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_the_first_error_in_the_order_of_units_counts_and_all_step(threads):
     units = [Counter(str(k), fails=k in (2, 3, 5)) for k in range(7)]
-    crew = Crew(units, threads)
+    crew = StepThreads(units, threads)
     with pytest.raises(UnitError, match=r"^2: "):
         crew.step(0.0, 1e-3)
     crew.close()

@@ -13,7 +13,8 @@ import pytest
 
 from fmus.build.builder import build
 from orchestrator.case.checkpoint_folder import checkpoint_folder
-from orchestrator.case.simulate import Execution, Stage, simulate
+from orchestrator.case.progress import Stage
+from orchestrator.case.simulate import Execution, simulate
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome

@@ -5,9 +5,9 @@ import json
 import pytest
 import xarray as xr
 
-from orchestrator.case.simulate import Result, Timing
 from orchestrator.outcome import Outcome
 from orchestrator.results.quantities import FORCE, GAP, MOMENT
+from orchestrator.results.result import Result, Timing
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import to_text
 from tests.orchestrator.results import synthetic_record

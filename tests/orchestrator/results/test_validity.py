@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from orchestrator.exit_status import of_outcome
 from orchestrator.outcome import Outcome
 from orchestrator.results.validity import UNRESOLVED, unresolved
 from tests.faults import fault
@@ -53,7 +52,7 @@ def test_the_worst_instant_is_given_with_the_state_of_the_journal():
 
 def test_the_outcome_is_no_success():
     assert not Outcome.UNRESOLVED.ok
-    assert of_outcome(Outcome.UNRESOLVED) == 10
+    assert Outcome.UNRESOLVED.status == 10
 
 
 def test_a_first_instant_without_defect_counts_not():

@@ -6,7 +6,7 @@ from zipfile import ZipFile
 import pytest
 
 from fmus.build.archive import guid_in, write_archive
-from orchestrator.ssp.simulate import SspRun
+from orchestrator.case.case import ssp_case
 from orchestrator.ssp.structure import SspError
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_doctype, with_text
@@ -125,7 +125,7 @@ def test_a_model_identifier_with_a_path(small_fmus, room, tmp_path):
 def test_a_parameter_that_is_no_number(text, small_ssp, tmp_path):
     change = ("resources/front.ssv", 'value="0.22"', f'value="{text}"')
     path = with_text(small_ssp, tmp_path / "x.ssp", *change)
-    with pytest.raises(SspError, match=rf"parameter diameter: '{text}' is no Real"), SspRun(path):
+    with pytest.raises(SspError, match=rf"parameter diameter: '{text}' is no Real"), ssp_case(path):
         pass
 
 
@@ -144,7 +144,7 @@ def test_a_damaged_train(small_ssp, small_fmus, tmp_path):
     write_archive(tmp_path / "x.ssp", files)
     with (
         pytest.raises(SspError, match=r"x\.ssp: rotor_small\.fmu: train\.json is no train"),
-        SspRun(tmp_path / "x.ssp"),
+        ssp_case(tmp_path / "x.ssp"),
     ):
         pass
 

@@ -7,7 +7,8 @@ import pytest
 
 from fmus.build.archive import write_archive
 from fmus.build.builder import build
-from orchestrator.case.simulate import Execution, simulate
+from orchestrator.case.case import ssp_case
+from orchestrator.case.simulate import Execution, execute, simulate
 from orchestrator.errors import ScenarioError
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import Wiring
@@ -15,7 +16,6 @@ from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 from orchestrator.ssp.reader import read_ssp
-from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 
 SHORT = {"end": 0.012, "event": {"time": 0.00613}, "depth": "v3", "depth_at": {"rear": "v2"}}
@@ -39,8 +39,8 @@ def exported(fmus, tmp_path_factory):
 
 
 def run(path, outcome=Outcome.FINISHED, **overrides):
-    with SspRun(path, overrides) as prepared:
-        result = prepared.simulate()
+    with ssp_case(path, overrides) as case:
+        result = execute(case)
     assert result.outcome is outcome, result.message
     return result.record
 
@@ -86,18 +86,18 @@ def test_force_only_runs_as_the_explicit_coupling_of_the_scenario(coupling, fmus
 
 
 def test_threads_give_the_record_of_one(exported):
-    with SspRun(exported[Wiring.LAW]) as prepared:
-        two = prepared.simulate(execution=Execution(threads=2)).record
+    with ssp_case(exported[Wiring.LAW]) as case:
+        two = execute(case, None, Execution(threads=2)).record
     assert two.drop_attrs().identical(run(exported[Wiring.LAW]).drop_attrs())
 
 
 def test_step_control_goes_where_its_step_is_replaced(fmus, tmp_path):
     path, force = export(small(tolerance=0.02), fmus, tmp_path / "small.ssp", "small")
     for overrides, left in (({}, 0.02), ({"step": 5e-5}, None), ({"step": 5e-5, "tolerance": 1e-3}, 1e-3)):
-        with SspRun(path, overrides) as prepared:
-            assert prepared.scenario.tolerance == left
-    with SspRun(force) as prepared:
-        assert prepared.scenario.tolerance is None
+        with ssp_case(path, overrides) as case:
+            assert case.scenario.tolerance == left
+    with ssp_case(force) as case:
+        assert case.scenario.tolerance is None
 
 
 def test_two_exports_have_the_same_bytes(fmus, exported, tmp_path):
@@ -155,7 +155,7 @@ def test_other_prefixes_order_and_inline_values_are_read(exported, tmp_path):
 
 
 def refusal(path, **overrides):
-    with pytest.raises((SspError, ScenarioError)) as info, SspRun(path, overrides):
+    with pytest.raises((SspError, ScenarioError)) as info, ssp_case(path, overrides):
         pass
     return str(info.value)
 
@@ -180,8 +180,8 @@ def test_refusals_name_what_is_wrong(exported, tmp_path):
     assert "speed" in refusal(edited(law, tmp_path / "speed.ssp", {"resources/rear.ssv": speed}))
     name = [('name="viscosity"', 'name="thickness"')]
     path = edited(law, tmp_path / "name.ssp", {"resources/rear.ssv": name})
-    with SspRun(path) as prepared, pytest.raises(SspError, match=r"rear: thickness is no variable"):
-        prepared.simulate()
+    with ssp_case(path) as case, pytest.raises(SspError, match=r"rear: thickness is no variable"):
+        execute(case)
 
 
 def test_a_failed_run_closes_its_units(exported, tmp_path, monkeypatch):
@@ -190,6 +190,6 @@ def test_a_failed_run_closes_its_units(exported, tmp_path, monkeypatch):
     monkeypatch.setattr(Unit, "close", lambda unit: (closed.append(unit.name), close(unit)))
     name = [('name="viscosity"', 'name="thickness"')]
     path = edited(exported[Wiring.LAW], tmp_path / "name.ssp", {"resources/rear.ssv": name})
-    with SspRun(path) as prepared, pytest.raises(SspError):
-        prepared.simulate()
-    assert closed == ["rotor", "front", "rear"]
+    with ssp_case(path) as case, pytest.raises(SspError):
+        execute(case)
+    assert closed == ["rotor", "front"]  # the rear one was not made

@@ -5,9 +5,10 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import pytest
 
+from orchestrator.case.case import ssp_case
+from orchestrator.case.simulate import execute
 from orchestrator.errors import FmuError
 from orchestrator.ssp.reader import read_ssp
-from orchestrator.ssp.simulate import SspRun
 from orchestrator.ssp.structure import SspError
 from tests.orchestrator.foreign import refused
 
@@ -41,9 +42,9 @@ def stated(name):
 
 
 def values_of(path, component):
-    with SspRun(path) as prepared:
-        contents = prepared._contents
-        return {c.name: c for c in contents.structure.components}[component].parameters, prepared.scenario
+    with ssp_case(path) as case:
+        contents = case.units.contents
+        return {c.name: c for c in contents.structure.components}[component].parameters, case.scenario
 
 
 def with_parameter(small_ssp, tmp_path, component, name, text, units=""):
@@ -126,19 +127,19 @@ def test_a_blade_has_the_limits_of_a_scenario(blade, words, small_ssp, small_fmu
 def test_the_definition_counts_or_is_refused(old, new, words, small_ssp, small_fmus, room, tmp_path):
     path = edited(small_ssp, tmp_path / "my.ssp", {SSD: [(old, new)]})
     if words is None:
-        with SspRun(path):
+        with ssp_case(path):
             return
     assert words in refused(path, room, small_fmus)
 
 
 def test_version_2_is_read_and_named_where_something_is_refused(small_ssp, tmp_path):
     path = edited(small_ssp, tmp_path / "two.ssp", {SSD: [(' version="1.0"', ' version="2.0"')]})
-    with SspRun(path) as prepared:
-        assert prepared.scenario.end == 0.01
+    with ssp_case(path) as case:
+        assert case.scenario.end == 0.01
     changes = [(' version="1.0"', ' version="2.0"'), ("x-fmu-sharedlibrary", "x-ssp-package")]
     path = edited(small_ssp, tmp_path / "two.ssp", {SSD: changes})
-    with pytest.raises(SspError, match=r"component of type .* \(SSP version 2.0\)"):
-        SspRun(path)
+    with pytest.raises(SspError, match=r"component of type .* \(SSP version 2.0\)"), ssp_case(path):
+        pass
 
 
 def test_mapped_parameters(small_ssp, tmp_path):
@@ -155,8 +156,10 @@ def test_mapped_parameters(small_ssp, tmp_path):
         SSD: [(re.escape(BINDING), binding)],
         "resources/front.ssv": [(stated("viscosity"), real("eta", 14.0, "mPas"))],
     }
-    with SspRun(small_ssp) as plain:
-        diameter = {c.name: c for c in plain._contents.structure.components}["front"].parameters["diameter"]
+    with ssp_case(small_ssp) as plain:
+        diameter = {c.name: c for c in plain.units.contents.structure.components}["front"].parameters[
+            "diameter"
+        ]
     values, _ = values_of(edited(small_ssp, tmp_path / "my.ssp", changes), "front")
     assert values["viscosity"] == pytest.approx(0.015, rel=1e-15) and values["diameter"] == diameter
 
@@ -206,8 +209,8 @@ def test_an_inner_system_is_the_same_system(small_ssp, tmp_path):
     assert {tuple(x.replace("casing.front", "front") for x in c) for c in renamed} == {
         (c.source, c.output, c.target, c.input) for c in plain.connections
     }
-    with SspRun(nested(small_ssp, tmp_path)) as prepared:
-        assert [c.name for c in prepared._contents.bearings] == ["casing.front", "rear"]
+    with ssp_case(nested(small_ssp, tmp_path)) as case:
+        assert [c.name for c in case.units.contents.bearings] == ["casing.front", "rear"]
 
 
 def inline(*parameters):
@@ -223,8 +226,11 @@ def test_values_of_a_system_win_and_travel_through_its_connectors(small_ssp, tmp
     extra = inline(real("front.viscosity", 0.017), real("journal.x", 1e-6))
     values, _ = values_of(nested(small_ssp, tmp_path, extra=extra), "casing.front")
     assert values["viscosity"] == 0.017 and values["journal.x"] == 1e-6
-    with pytest.raises(SspError, match=r"casing: parameter front_viscosity belongs to nothing"):
-        SspRun(nested(small_ssp, tmp_path, extra=inline(real("front_viscosity", 0.017))))
+    with (
+        pytest.raises(SspError, match=r"casing: parameter front_viscosity belongs to nothing"),
+        ssp_case(nested(small_ssp, tmp_path, extra=inline(real("front_viscosity", 0.017)))),
+    ):
+        pass
 
 
 def test_signals_must_travel_as_they_are(small_ssp, tmp_path):
@@ -232,9 +238,9 @@ def test_signals_must_travel_as_they_are(small_ssp, tmp_path):
     scaled = wire.replace(" />", '><ssc:LinearTransformation factor="{}" /></ssd:Connection>')
     path = nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1000"))])
     words = r"casing.front.F0.Fx -> rotor.bearing\[1\].F0.Fx: by transformation or units x comes as 1000 x"
-    with pytest.raises(SspError, match=words):
-        SspRun(path)
-    with SspRun(nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1.0"))])):
+    with pytest.raises(SspError, match=words), ssp_case(path):
+        pass
+    with ssp_case(nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1.0"))])):
         pass
 
 
@@ -253,28 +259,31 @@ def flagged(small_ssp, tmp_path, old, new, **changes):
 def test_a_unit_for_one_instance_serves_one_bearing(small_ssp, tmp_path):
     new = '<CoSimulation canBeInstantiatedOnlyOncePerProcess="true" '
     with (
-        SspRun(flagged(small_ssp, tmp_path, "<CoSimulation ", new)) as prepared,
+        ssp_case(flagged(small_ssp, tmp_path, "<CoSimulation ", new)) as case,
         pytest.raises(FmuError) as info,
     ):
-        prepared.simulate()
+        execute(case)
     assert "canBeInstantiatedOnlyOncePerProcess, and rear would be a second instance" in str(info.value)
 
 
 def test_a_unit_of_even_steps_gets_even_steps(small_ssp, tmp_path):
     flag = "canHandleVariableCommunicationStepSize="
     path = flagged(small_ssp, tmp_path, f'{flag}"true"', f'{flag}"false"')
-    with SspRun(path, {"end": 0.01005}) as prepared, pytest.raises(FmuError, match="no multiple of step"):
-        prepared.simulate()
+    with ssp_case(path, {"end": 0.01005}) as case, pytest.raises(FmuError, match="no multiple of step"):
+        execute(case)
     with (
-        SspRun(path, {"tolerance": 0.1}) as prepared,
+        ssp_case(path, {"tolerance": 0.1}) as case,
         pytest.raises(FmuError, match="a tolerance halves steps"),
     ):
-        prepared.simulate()
-    with SspRun(path, {"end": 0.001}) as prepared:
-        assert prepared.simulate().record is not None
+        execute(case)
+    with ssp_case(path, {"end": 0.001}) as case:
+        assert execute(case).record is not None
 
 
 def test_a_unit_for_model_exchange_only_is_named(small_ssp, tmp_path):
     path = flagged(small_ssp, tmp_path, "<CoSimulation .*?/>", '<ModelExchange modelIdentifier="x" />')
-    with pytest.raises(SspError, match=r"not an FMI 2.0 co-simulation unit: for model exchange only"):
-        SspRun(path)
+    with (
+        pytest.raises(SspError, match=r"not an FMI 2.0 co-simulation unit: for model exchange only"),
+        ssp_case(path),
+    ):
+        pass

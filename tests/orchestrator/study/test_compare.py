@@ -10,11 +10,10 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from orchestrator import exit_status
 from orchestrator.cli.main import app
 from orchestrator.commands import compare as compare_command
 from orchestrator.commands.compare import CompareRequest
-from orchestrator.outcome import Outcome
+from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
 from orchestrator.results.record_files import read_record
 from orchestrator.scenario.file import load_scenario
 from orchestrator.study.compare import COMPARED, refine
@@ -172,7 +171,7 @@ def run(tmp_path, code, **request):
 def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
     out = tmp_path / "out"
     status, said, errors = run(tmp_path, DIES_AT_V2, out=out, check=True)
-    assert status == exit_status.PROCESS_DIED
+    assert status == PROCESS_DIED
     assert "v2 not finished: process-died" in errors and "SIGKILL" in errors
     assert "PARTIAL: V2 process-died" in said and "Check with" not in said
     assert not out.exists()
@@ -189,7 +188,7 @@ def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
 
 def test_runs_that_left_nothing_give_the_status_and_no_folder(here, tmp_path):
     status, said, errors = run(tmp_path, IS_REFUSED, out=tmp_path / "out")
-    assert status == exit_status.STATUS[Outcome.STEP_REFUSED]
+    assert status == Outcome.STEP_REFUSED.status
     assert errors.count("step-refused at t = 0 s: front: the gap closed") == 3
     assert said.count("no conclusion") == 3
     assert sorted(path.name for path in tmp_path.iterdir()) == ["errors", "said"]
@@ -223,7 +222,7 @@ def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
 def test_wrong_input_is_refused_before_anything_runs(here, arguments, named):
     before = files(here)
     result = CliRunner().invoke(app, ["compare", "short.toml", *arguments], env={"COLUMNS": "200"})
-    assert result.exit_code == exit_status.INPUT_ERROR
+    assert result.exit_code == INPUT_ERROR
     assert named in result.output
     assert files(here) == before
 
@@ -235,4 +234,4 @@ def test_help_tells_options_and_exit_statuses():
     )
     for option in options.split():
         assert option in text
-    assert re.search(rf"\b{exit_status.PROCESS_DIED}  ", text)
+    assert re.search(rf"\b{PROCESS_DIED}  ", text)

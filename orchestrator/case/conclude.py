@@ -1,0 +1,76 @@
+"""From a result to the folder of a run and the exit status of its command."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from orchestrator.case.case import Case
+from orchestrator.case.certify import certify
+from orchestrator.case.request import RunRequest
+from orchestrator.errors import NotWrittenError
+from orchestrator.outcome import Outcome
+from orchestrator.results.files import write_all
+from orchestrator.results.folder import FIGURES, partial_folder
+from orchestrator.results.result import Result
+from orchestrator.results.summary import RunSummary, summarise
+from orchestrator.results.summary_table import SummaryTable
+
+
+def conclude(
+    case: Case,
+    request: RunRequest,
+    folder: Path,
+    results: tuple[Result, Result | None],
+    console: Console,
+    errors: Console,
+) -> int:
+    """Write what a run gave, say what came out, and return the exit status.
+
+    Parameters
+    ----------
+    case, request : Case, RunRequest
+        What was run, and what was asked for.
+    folder : Path
+        Of the results; what did not finish goes beside it.
+    results : tuple of Result
+        Of the run, and of the same run at half the step or None: with it a certificate goes into summary
+        and record, and where it failed that is the exit status.
+    console, errors : rich.console.Console
+        For output and for what went wrong.
+    """
+    result, half = results
+    summary = summarise(result, analysed=request.bearing)
+    if half is not None:
+        certificate = certify(summary, summarise(half, analysed=request.bearing))
+        summary = replace(summary, certificate=certificate)
+        result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
+    console.print(SummaryTable(summary))
+    outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
+    if outcome.ok or summary.phases:
+        try:
+            _write(case, request, folder if outcome.ok else partial_folder(folder), result, summary, console)
+        except NotWrittenError as error:
+            outcome, message = Outcome.NOT_WRITTEN, error.text
+            if request.checkpoint is not None:
+                message += " The checkpoint is kept: bladeloss resume goes on from there."
+    if outcome.ok and half is not None and not half.outcome.ok:
+        outcome, message = half.outcome, f"the certificate's run at half the step: {half.message}"
+    if not outcome.ok:
+        text = f" {outcome.value} (exit status {outcome.status}): {message}"
+        errors.print(Text.assemble(("error:", "red"), text), soft_wrap=True)
+    return outcome.status
+
+
+def _write(
+    case: Case, request: RunRequest, folder: Path, result: Result, summary: RunSummary, console: Console
+) -> None:
+    """Write record, summary, scenario and figures, and say where they are."""
+    write_all(result, summary, case.scenario, case.train, request.formats, folder)
+    kind = "Results" if result.outcome.ok else "Partial results"
+    console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
+    if request.formats and summary.phases:
+        console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)

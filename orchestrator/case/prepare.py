@@ -1,0 +1,105 @@
+"""From a request to a case: read it, check that it can run and be written, build its FMUs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from rich.console import Console
+
+from orchestrator.case.case import Case, folder_case, ssp_case
+from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.request import RunRequest
+from orchestrator.errors import OrchestratorError
+from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.fmi.trust import require_trust
+from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
+from orchestrator.results.folder import check_folder, check_room, check_writable
+from orchestrator.scenario.file import load_with_train, parse_scenario, scenario_toml
+from orchestrator.scenario.problems import record_size
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.wording import choice
+
+
+@contextmanager
+def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = None) -> Iterator[Case]:
+    """Make the case of a request, or of a checkpoint; what it extracts vanishes at the end.
+
+    Parameters
+    ----------
+    request : RunRequest
+        What to run.
+    console : rich.console.Console
+        Told which FMUs are built.
+    saved : Checkpoint, optional
+        Of an earlier run of the request.
+
+    Raises
+    ------
+    OrchestratorError
+        For anything wrong with the input; nothing is written then but FMUs.
+    """
+    with (_ssp_case if request.is_ssp else _scenario_case)(request, saved) as case:
+        names = [seat.name for seat in case.train.bearings]
+        if request.bearing is not None and request.bearing not in names:
+            raise OrchestratorError(
+                f"--bearing {request.bearing}: no such bearing; {choice(request.bearing, names)}"
+            )
+        folder = result_folder_of(request, case.scenario)
+        check_folder(folder)
+        check_room(folder, record_size(case.scenario, case.train))
+        if request.checkpoint is not None:
+            check_writable(checkpoint_folder(folder))
+        known = saved.about.get("trusted", ()) if saved is not None else ()
+        foreign = case.units.foreign(case.scenario)
+        trusted = require_trust(foreign, request.fmus, trust=request.trust, known=known)
+        if not request.is_ssp:
+            depths = {case.scenario.depth_of(name) for name in names}
+            ensure_fmus(request.fmus, case.train, depths, console)
+        yield replace(case, about={**case.about, "trusted": trusted})
+
+
+def result_folder_of(request: RunRequest, scenario: Scenario) -> Path:
+    """Return the folder asked for, or ``results/<scenario>-<depth>``, ``-mixed`` where bearings differ."""
+    if request.out is not None:
+        return request.out
+    name = Path(request.source).stem
+    if not request.is_ssp:
+        depths = {scenario.depth, *scenario.depth_at.values()}
+        name += f"-{scenario.depth}" + ("-mixed" if len(depths) > 1 else "")
+    return Path("results") / name
+
+
+@contextmanager
+def _scenario_case(request: RunRequest, saved: Checkpoint | None) -> Iterator[Case]:
+    if saved is None:
+        scenario, train = load_with_train(request.source, _with_ledger(request))
+    else:
+        try:
+            text, place = saved.about["scenario"], Path(saved.about["scenario_folder"])
+        except KeyError as error:
+            raise CheckpointError(f"{saved.path}: {error} is missing") from None
+        scenario, train = parse_scenario(text, place, str(saved.path))
+    about = {"scenario": scenario_toml(scenario), "scenario_folder": str(scenario.folder.absolute())}
+    with folder_case(scenario, train, request.fmus, about) as case:
+        yield case
+
+
+@contextmanager
+def _ssp_case(request: RunRequest, saved: Checkpoint | None) -> Iterator[Case]:
+    path = Path(request.source)
+    with ssp_case(path, _with_ledger(request)) as case:
+        found = case.about["ssp_sha256"]
+        if saved is not None and saved.about.get("ssp_sha256") != found:
+            raise CheckpointError(
+                f"{saved.path}: made with another {path} (sha256 {saved.about.get('ssp_sha256')}, not "
+                f"{found}); put that file back, or start anew"
+            )
+        yield case
+
+
+def _with_ledger(request: RunRequest) -> dict[str, object]:
+    """The overrides; a certificate needs the energy ledger."""
+    return {**request.overrides, **({"ledger": True} if request.certify else {})}
