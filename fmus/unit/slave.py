@@ -10,11 +10,11 @@ they are computed on get after a set.  From then on they change in ``do_step`` o
 
 Failure
 -------
-No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it.  A bad
-parameter or a failed start is logged and kept: the outputs are NaN, and every
-``do_step`` returns ``fmi2Discard`` with the reason in the log.  A failed step is
-``fmi2Discard``, too; it leaves the unit as it was and may be repeated with other
-inputs or a smaller step.
+No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it and lets go
+of the unit, so that the host crashes when it frees the instance.  A bad parameter or
+a failed start is logged and kept: the outputs are NaN, and every ``do_step`` returns
+``fmi2Discard`` with the reason in the log.  A failed step is ``fmi2Discard``, too; it
+leaves the unit as it was and may be repeated with other inputs or a smaller step.
 """
 
 from __future__ import annotations
@@ -124,6 +124,8 @@ class UnitSlave(Fmi2Slave):
         """Freeze the start: from here on outputs change in `do_step` only."""
         self._solve()
         self._mode = STEP
+        if self._failure:  # pythonfmu can return OK only
+            self._report(f"initialization ended without a start: {self._failure}", Fmi2Status.error)
 
     def terminate(self) -> None:
         """End the simulation."""
@@ -184,6 +186,7 @@ class UnitSlave(Fmi2Slave):
             return self._store.read(vrs, block)
         except IndexError:
             self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
+            self._report(self._misuse, Fmi2Status.error)
             return [math.nan] * len(vrs)
 
     def get_integer(self, vrs: list[int]) -> list[int]:

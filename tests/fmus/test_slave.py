@@ -5,6 +5,8 @@ import math
 
 import pytest
 
+ERROR = 3
+
 
 def force(x, v, stiffness=2e6, damping=1e3):
     return -stiffness * x - damping * v
@@ -60,6 +62,12 @@ def test_a_bad_parameter_is_a_discard_with_the_reason_in_the_log(spring):
     assert not spring.step(0.0, 1e-3)
     assert "stiffness = -1.0 N/m, allowed is > 0 (100 %% sure)" in spring.said
     assert not spring.step(0.0, 1e-3)
+
+
+def test_initialization_that_ends_without_a_start_is_an_error_in_the_log(spring):
+    """Not in the status: pythonfmu's library knows OK and an exception that crashes the host later."""
+    spring.start({"stiffness": -1.0})
+    assert [text for status, text in spring.log if status == ERROR and "ended without a start" in text]
 
 
 def test_a_bad_parameter_may_be_corrected_before_the_end_of_initialization(spring):
@@ -119,6 +127,7 @@ def test_in_step_mode_inputs_alone_may_be_set(spring, name):
 def test_an_unknown_reference_is_a_discard_at_the_next_step(spring):
     spring.start()
     assert math.isnan(spring.slave.getReal([99])[0])
+    assert any(status == ERROR and "unknown" in text for status, text in spring.log)
     assert not spring.step(0.0, 1e-3) and "unknown" in spring.said
 
 
