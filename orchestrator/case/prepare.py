@@ -17,7 +17,7 @@ from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import require_trust
 from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
 from orchestrator.results.folder import check_folder, check_room, check_writable
-from orchestrator.scenario.file import load_with_train, parse_scenario, scenario_toml
+from orchestrator.scenario.file import load_with_train, parse_with_train, scenario_toml
 from orchestrator.scenario.problems import record_size
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.wording import choice
@@ -81,7 +81,7 @@ def _scenario_case(request: RunRequest, saved: Checkpoint | None) -> Iterator[Ca
             text, place = saved.about["scenario"], Path(saved.about["scenario_folder"])
         except KeyError as error:
             raise CheckpointError(f"{saved.path}: {error} is missing") from None
-        scenario, train = parse_scenario(text, place, str(saved.path))
+        scenario, train = parse_with_train(text, place, str(saved.path))
     about = {"scenario": scenario_toml(scenario), "scenario_folder": str(scenario.folder.absolute())}
     with folder_case(scenario, train, request.fmus, about) as case:
         yield case

@@ -14,6 +14,7 @@ import xarray as xr
 from orchestrator.case.case import Case, folder_case
 from orchestrator.case.progress import Progress, Stage
 from orchestrator.errors import EquilibriumError
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.unit import UnitError
 from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.master.assembly import join
@@ -23,7 +24,6 @@ from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start, begin
 from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
-from orchestrator.master.threads import one_blas_thread
 from orchestrator.master.time_loop import Course, RunEnd, run
 from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, Saver
 from orchestrator.observers.ledger import Ledger

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import StrEnum
-from typing import Annotated
+from inspect import Signature, signature
+from typing import Annotated, Any, TypeVar, get_type_hints
 
 import typer
 
@@ -74,6 +75,30 @@ FigureFormats = Annotated[
         help="Of the figures: png (default), pdf, svg; repeatable.",
     ),
 ]
+
+
+_Options = TypeVar("_Options")
+
+
+def command_of(options: type[_Options], work: Callable[[_Options], int]) -> Callable[..., None]:
+    """Return a command whose options are the fields of a dataclass.
+
+    Parameters
+    ----------
+    options : type
+        A dataclass; the annotations of its fields are typer's.
+    work : callable
+        Gets one, and returns the exit status; see `guarded`.
+    """
+
+    def command(**given: Any) -> None:
+        guarded(lambda: work(options(**given)))
+
+    hints = get_type_hints(options, include_extras=True)
+    own = [p.replace(annotation=hints[p.name]) for p in signature(options).parameters.values()]
+    command.__signature__ = Signature(own)  # type: ignore[attr-defined]
+    command.__annotations__ = hints
+    return command
 
 
 def guarded(work: Callable[[], int]) -> None:

@@ -9,6 +9,7 @@ from rich import box
 from rich.table import Table
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.campbell import free_data, supported_data
 from orchestrator.linear.case import (
     COLUMNS_EXPLAINED,
@@ -35,6 +36,7 @@ TOLERANCE = 1e-4
 """Errors up to this are written in green: no diagram shows them."""
 
 
+@one_blas_thread()
 def run(request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float) -> int:
     """Compute, print and write the diagram; returns the exit status.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rich import box
 from rich.table import Table
 
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import (
     COLUMNS_EXPLAINED,
     FULL,
@@ -34,6 +35,7 @@ STEP = 0.25
 """Interval of the axis of speed [Hz]; the rated speed is added."""
 
 
+@one_blas_thread()
 def run(request: LinearRequest, console: Console, *, highest: float) -> int:
     """Compute, print and write the response; returns the exit status.
 

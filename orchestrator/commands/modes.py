@@ -9,6 +9,7 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import HERTZ, LinearCase, linear_case, whirl_name, write_results
 from orchestrator.linear.operating_point import bearing_data
 from orchestrator.results.figures.mode_shapes import mode_shapes_figure
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from orchestrator.linear.case import LinearRequest
 
 
+@one_blas_thread()
 def run(request: LinearRequest, console: Console, *, count: int) -> int:
     """Compute, print and write the modes; returns the exit status.
 

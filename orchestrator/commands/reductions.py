@@ -9,6 +9,7 @@ import xarray as xr
 from rich import box
 from rich.table import Table
 
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import (
     COLUMNS_EXPLAINED,
     HERTZ,
@@ -43,6 +44,7 @@ SHOWN = 8
 """Frequencies of the table of iterations."""
 
 
+@one_blas_thread()
 def run(request: LinearRequest, console: Console) -> int:
     """Compute, print and write the comparison; returns the exit status.
 

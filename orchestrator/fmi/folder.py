@@ -9,11 +9,13 @@ from rich.console import Console
 
 from fmus.build.builder import build, refresh
 from orchestrator.errors import FmuError
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.scenario.file import read_train
 from orchestrator.scenario.scenario import is_fmu
 from rotor_fmu.train.train import Train
 
 
+@one_blas_thread()
 def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Console) -> list[Path]:
     """Build the FMUs that a run needs and the folder lacks, or holds from other sources or data.
 
@@ -47,6 +49,7 @@ def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Co
     return built
 
 
+@one_blas_thread()
 def build_all(folder: Path, trains: Sequence[str], console: Console) -> list[Path]:
     """Build the rotors of trains, given by name or folder, and a bearing of each depth.
 

@@ -16,6 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from orchestrator.errors import EquilibriumError
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import UnitError
 from orchestrator.master.assembly import assemble
@@ -68,6 +69,7 @@ def on_running_films(scenario: Scenario, train: Train, fmus: Path) -> Iterator[S
             system.close()
 
 
+@one_blas_thread()
 def operating_point(scenario: Scenario, train: Train, fmus: Path) -> OperatingPoint:
     """Find the operating point of a scenario's train; raises as `on_running_films`."""
     with on_running_films(scenario, train, fmus) as system:

@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from queue import SimpleQueue
 from threading import Thread
 
-import scipy.linalg  # noqa: F401  # its library must be loaded to be limited
-from threadpoolctl import threadpool_limits
-
 from orchestrator.fmi.unit import Unit
-
-
-@contextmanager
-def one_blas_thread() -> Iterator[None]:
-    """Give linear algebra one thread: on matrices of this size more of them wait for one another."""
-    with threadpool_limits(1, user_api="blas"):
-        yield
-
 
 _Share = Sequence[tuple[int, Unit]]
 _Errors = dict[int, Exception]

@@ -69,14 +69,19 @@ def load_with_train(source: str | Path, overrides: Mapping[str, Any] | None = No
     return _checked(toml, overrides or {}, path.parent, str(source))
 
 
-def parse_scenario(text: str, folder: Path, source: str) -> tuple[Scenario, Train]:
-    """Read scenario and train from TOML text; paths count from `folder`, `source` names it in errors.
+def parse_scenario(text: str, folder: Path, source: str) -> Scenario:
+    """Read a scenario from TOML text; relative paths count from `folder`, `source` names it in errors.
 
     Raises
     ------
     ScenarioError
         As in `load_scenario`.
     """
+    return parse_with_train(text, folder, source)[0]
+
+
+def parse_with_train(text: str, folder: Path, source: str) -> tuple[Scenario, Train]:
+    """Read a scenario from TOML text as `parse_scenario`, and return its train with it."""
     try:
         toml = TomlSource(text)
     except TomlError as error:

@@ -12,6 +12,7 @@ import numpy as np
 from fmus import port
 from fmus.build.archive import write_archive
 from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.assembly import assemble
@@ -37,6 +38,7 @@ def force_only(path: Path) -> Path:
     return path.with_name(f"{path.stem}_force{path.suffix}")
 
 
+@one_blas_thread()
 def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
     """Write the system of a scenario as two SSP archives: affine law, and force only.
 

@@ -4,15 +4,21 @@ import fmpy.util
 import numpy as np
 import pytest
 import xarray as xr
+from rich.console import Console
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from orchestrator.case import case as case_module
 from orchestrator.case.progress import Stage
+from orchestrator.case.request import RunRequest
 from orchestrator.case.simulate import simulate
+from orchestrator.commands.run import run
 from orchestrator.errors import FmuError
 from orchestrator.master.stepping import DEEPEST
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record, write_record
-from orchestrator.scenario.file import load_scenario
+from orchestrator.scenario import file as file_module
+from orchestrator.scenario.file import load_scenario, scenario_toml
+from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.toy_train import GRADE, SPEED, STIFFNESS, WHEEL_MASS, toy_fmu_folder, toy_scenario
 
@@ -226,3 +232,33 @@ def test_a_failed_write_leaves_nothing(finished, tmp_path, monkeypatch):
     with pytest.raises(OSError, match="disk full"):
         write_record(finished.record, tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_linear_algebra_has_one_thread_in_a_run_and_what_it_had_behind_it(fmus, tmp_path):
+    """Also of a run from Python, where no command has set the environment."""
+
+    def threads(*_):
+        found.append({pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})
+
+    found = []
+    with threadpool_limits(3, user_api="blas"):
+        simulate(toy_scenario(tmp_path, end=2e-3), fmus, threads)
+        inside = list(found)
+        threads()
+    assert inside and all(pools == {1} for pools in inside)
+    assert found[-1] == {3}
+
+
+def test_a_run_reads_its_train_once(fmus, tmp_path, monkeypatch):
+    read = []
+
+    def counted(source):
+        read.append(source)
+        return load_train(source)
+
+    (tmp_path / "toy.toml").write_text(scenario_toml(toy_scenario(tmp_path, end=2e-3)))
+    monkeypatch.setattr(file_module, "load_train", counted)
+    monkeypatch.setattr("orchestrator.case.prepare.ensure_fmus", lambda *_: None)
+    request = RunRequest(str(tmp_path / "toy.toml"), out=tmp_path / "out", fmus=fmus, formats=())
+    assert run(request, Console(quiet=True), Console()) == 0
+    assert len(read) == 1

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from orchestrator.cli import main as cli
+from orchestrator.case import prepare
+from orchestrator.case.request import RunRequest
+from orchestrator.cli import options as cli
 from orchestrator.cli.main import app
 from orchestrator.commands import run as run_command
 from orchestrator.outcome import INPUT_ERROR, Outcome
@@ -152,10 +154,10 @@ def test_mistakes_in_a_scenario_name_file_key_and_value(here, old, new, named):
     "input",
     "--out that names a folder with other files in it",
     "exit 2; the folder, `no earlier result`; nothing is written",
-    guard="orchestrator.commands.run:run_case",
+    guard="orchestrator.case.prepare:prepare",
 )
 def test_alien_folders_are_not_written_to(here, monkeypatch):
-    monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: pytest.fail("went on"))
+    monkeypatch.setattr(prepare, "ensure_fmus", lambda *_: pytest.fail("went on"))
     (here / "thesis.tex").write_text("")
     assert "no earlier result" in refused(here, "run", "small", "--out", ".")
 
@@ -246,16 +248,16 @@ def test_an_interrupted_run_keeps_what_was_simulated(short_run):
 
 
 def failing(outcome, end):
-    def simulate(_scenario, _fmus, _progress, _execution):
+    def execute(_case, _progress, _execution):
         record = synthetic_record.record(end=end)
         return Result(record, outcome, "front: the gap closed", Timing(1, 1, 1, 1, 1, 1, 1), 11000, 22000)
 
-    return simulate
+    return execute
 
 
 def test_a_partial_run_is_marked_and_replaces_nothing(here, monkeypatch):
-    monkeypatch.setattr(run_command, "simulate", failing(Outcome.STEP_REFUSED, 1.1))
-    monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: [])
+    monkeypatch.setattr(run_command, "execute", failing(Outcome.STEP_REFUSED, 1.1))
+    monkeypatch.setattr(prepare, "ensure_fmus", lambda *_: [])
     result = call("run", "--out", "out")
     assert result.exit_code == Outcome.STEP_REFUSED.status
     assert "the gap closed" in result.output
@@ -268,15 +270,15 @@ def test_a_partial_run_is_marked_and_replaces_nothing(here, monkeypatch):
 
 
 def test_a_run_that_never_began_leaves_nothing(here, monkeypatch):
-    def simulate(*_):
+    def execute(*_):
         import xarray as xr
 
         return Result(
             xr.Dataset(), Outcome.NO_EQUILIBRIUM, "front: residual", Timing(0, 0, 0, 0, 0, 0, 0), 0, 0
         )
 
-    monkeypatch.setattr(run_command, "simulate", simulate)
-    monkeypatch.setattr(run_command, "ensure_fmus", lambda *_: [])
+    monkeypatch.setattr(run_command, "execute", execute)
+    monkeypatch.setattr(prepare, "ensure_fmus", lambda *_: [])
     result = call("run", "small")
     assert result.exit_code == Outcome.NO_EQUILIBRIUM.status
     assert list(here.iterdir()) == []
@@ -285,6 +287,10 @@ def test_a_run_that_never_began_leaves_nothing(here, monkeypatch):
 def test_the_default_folder_names_scenario_and_depth():
     from orchestrator.scenario.file import load_scenario
 
-    assert run_command.default_folder("small", load_scenario("small")) == Path("results/small-v1")
+    def default_folder(source, scenario):
+        return prepare.result_folder_of(RunRequest(source), scenario)
+
+    assert default_folder("small", load_scenario("small")) == Path("results/small-v1")
     mixed = load_scenario("small", {"depth": "v2", "depth_at": {"rear": "v3"}})
-    assert run_command.default_folder("a/b.toml", mixed) == Path("results/b-v2-mixed")
+    assert default_folder("a/b.toml", mixed) == Path("results/b-v2-mixed")
+    assert default_folder("a/b.ssp", mixed) == Path("results/b")

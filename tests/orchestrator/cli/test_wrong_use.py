@@ -23,12 +23,12 @@ CASES = [
         "run --coupling linear-implict",
         "--coupling linear-implict: did you mean 'linear-implicit'? allowed are",
         "--coupling misspelt", "exit 2; one line: option, value, the likely spelling, all couplings",
-        guard="orchestrator.cli.main:run",
+        guard="orchestrator.cli.run:RunOptions",
     ),
     case(
         "run --reduction isr", "--reduction isr: did you mean 'irs'? allowed are irs, irs-plain, guyan",
         "--reduction misspelt", "exit 2; one line: option, value, the likely spelling, all reductions",
-        guard="orchestrator.cli.main:run",
+        guard="orchestrator.cli.run:RunOptions",
     ),
     case(
         "campbell --depth V2", "--depth V2: did you mean 'v2'? allowed are v1, v2, v3",
@@ -39,7 +39,7 @@ CASES = [
         "run --depth-at LP2-front=V2",
         "--depth-at LP2-front=V2: not NAME=DEPTH; of depths did you mean 'v2'?",
         "--depth-at with an unknown depth", "exit 2; one line: option, value, the likely one, all depths",
-        guard="orchestrator.cli.main:_assignments",
+        guard="orchestrator.cli.run:_assignments",
     ),
     case(
         "run small --depth-at frnt=v2",
@@ -74,7 +74,7 @@ CASES = [
 @pytest.mark.parametrize(("arguments", "words"), CASES)
 def test_wrong_use_is_one_line_and_leaves_nothing(tmp_path, monkeypatch, arguments, words):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("orchestrator.commands.run.ensure_fmus", lambda *_: pytest.fail("went on"))
+    monkeypatch.setattr("orchestrator.case.prepare.ensure_fmus", lambda *_: pytest.fail("went on"))
     result = CliRunner().invoke(app, arguments, prog_name="bladeloss")
     assert result.exit_code == INPUT_ERROR, result.output
     (line,) = result.output.splitlines()

@@ -183,6 +183,19 @@ def test_a_scenario_that_does_not_exist():
         load_scenario("papr")
 
 
+@fault(
+    "coupling",
+    "jacobi with a tolerance, which no step could meet: what it neglects does not fall with the step",
+    "exit 2; line, value, the coupling that can",
+    guard="orchestrator.scenario.problems:time_problems",
+)
+def test_jacobi_takes_no_tolerance(tmp_path):
+    text = TEXT.replace('coupling = "linear-implicit"', 'coupling = "jacobi"\ntolerance = 0.1')
+    with pytest.raises(ScenarioError, match=r"^my.toml: line 6: tolerance = 0.1; allowed is none .*jacobi"):
+        parse_scenario(text, tmp_path, "my.toml")
+    parse_scenario(text.replace("jacobi", "gauss-seidel"), tmp_path, "my.toml")
+
+
 def test_a_value_given_as_an_option_has_no_line(tmp_path):
     """It stands in no line of the file; the others keep theirs."""
     (tmp_path / "my.toml").write_text(TEXT.replace("rows = 8", "rows = 1"))
