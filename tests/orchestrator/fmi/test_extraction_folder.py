@@ -24,11 +24,11 @@ def test_an_odd_folder_is_avoided(odd, tmp_path, monkeypatch):
     monkeypatch.setattr(file, "_FALLBACKS", ("/no/such/folder", str(plain)))
     monkeypatch.setattr(file, "_SAFE_PATH", file.re.compile(r"[^( ]+"))
     with FmuStore() as store:
-        assert store._folder.parent == plain
+        assert store.folder.parent == plain
 
 
 def test_where_there_is_no_other_it_is_taken(odd, monkeypatch):
     """As on Windows, which has no /tmp."""
     monkeypatch.setattr(file, "_FALLBACKS", ("/no/such/folder",))
     with FmuStore() as store:
-        assert store._folder.parent == Path(odd)
+        assert store.folder.parent == Path(odd)
