@@ -3,57 +3,100 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from functools import lru_cache
+from importlib import import_module
+from typing import Any, Self
 
-from bearing_fmu.film import Depth, make_film
-from bearing_fmu.parameters import BearingParameters
-from fmus import port
+import numpy as np
+
+from bearing_fmu import depths
 from fmus.unit.failure import FILM_FAILED, UnitError
 from fmus.unit.layout import Layout
 from fmus.unit.slave import UnitSlave
 
-LAYOUT = Layout(port.BEARING)
-_PARAMETERS = LAYOUT.block("diameter", "contact.friction")
-_OFFSET = LAYOUT.block("offset.x", "offset.tilt_y")
-_RESOLUTION = LAYOUT.block("film.columns", "film.rows")
+
+class FilmState:
+    """State of a film with memory, see `fmus.unit.state.ModelState`."""
+
+    def __init__(self, numbers: np.ndarray) -> None:
+        self.numbers = numbers
+
+    def to_bytes(self) -> bytes:
+        """Return the numbers without loss."""
+        return self.numbers.tobytes()
+
+    @classmethod
+    def from_bytes(cls, data: bytes, /) -> Self:
+        """Read what `to_bytes` wrote; ValueError if it is no whole number of them."""
+        return cls(np.frombuffer(data))
+
+
+@lru_cache(maxsize=16)
+def _depth_and_layout(name: str) -> tuple[depths.Depth, Layout]:
+    depth = depths.find(name)
+    return depth, Layout(depth.variables)
 
 
 class BearingSlave(UnitSlave):
     """A journal bearing of one depth.
 
-    The film has no memory, so that the values are the whole state.
-
     Parameters
     ----------
     depth : str
-        Modelling depth, a value of `Depth`.
+        Name of the depth.
+    film : str
+        Where its film is, see `bearing_fmu.depths.Depth.film`; loading that makes the depth known.
     starts : mapping, optional
-        Start values in place of the port's.
+        Start values in place of the depth's.
     **kwargs
         What pythonfmu passes.
     """
 
-    def __init__(self, depth: str, starts: Mapping[str, float] | None = None, **kwargs: Any) -> None:
-        super().__init__(LAYOUT, **kwargs)
+    model_type = FilmState
+
+    def __init__(
+        self, depth: str, film: str, starts: Mapping[str, float] | None = None, **kwargs: Any
+    ) -> None:
+        import_module(film.partition(":")[0])
+        self._depth, layout = _depth_and_layout(depth)
+        super().__init__(layout, **kwargs)
         for name, value in (starts or {}).items():
-            self.values[LAYOUT[name]] = value
-        self._depth = Depth(depth)
-        self._offset = self.values[_OFFSET]
-        self._outputs = self.values[LAYOUT.outputs]
+            if layout[name] in self.strings:
+                self.strings[layout[name]] = str(value)
+            else:
+                self.values[layout[name]] = value
+        self._outputs = self.values[layout.outputs]
+        self._parameters = layout.block(self._depth.parameters[0].name, self._depth.parameters[-1].name)
 
     def prepare(self) -> None:
         """Make the film of the parameters."""
-        columns, rows = (int(n) for n in self.values[_RESOLUTION])
-        d, b, clearance, eta, ambient, sigma, modulus, friction = self.values[_PARAMETERS].tolist()
-        parameters = BearingParameters(d, b, clearance, eta, ambient, sigma, modulus, friction, columns, rows)
-        self._film = make_film(self._depth, parameters)
+        numbers = self.values[self._parameters].tolist()
+        values = dict(zip((v.name for v in self._depth.parameters), numbers, strict=True))
+        values |= {self.layout.variables[i].name: text for i, text in self.strings.items()}
+        self._film = self._depth.make(values)
+        self._state = self._film.rest()
 
     def start(self) -> None:
-        """Evaluate the film at the inputs."""
-        status = self._film.evaluate(self.inputs, self._offset, self._outputs)
-        if status:
-            raise UnitError(f"{FILM_FAILED}: {self._film.failure(status, self.inputs, self._offset)}")
+        """Evaluate the film at the inputs, in balance with them."""
+        self._evaluate(self._film.rest(), 0.0)
 
     def advance(self, time: float, step: float) -> None:
         """Evaluate the film at the inputs, which are those at the end of the step."""
-        self.start()
+        self._evaluate(self._state, step)
+
+    def _evaluate(self, state: Any, dt: float) -> None:
+        """Take on outputs and state together, or nothing."""
+        try:
+            outputs, state = self._film.evaluate(state, self.inputs, dt)
+        except ArithmeticError as error:
+            raise UnitError(f"{FILM_FAILED}: {error}") from None
+        self._outputs[:] = outputs
+        self._state = state
+
+    def model_state(self) -> FilmState | None:
+        """Return the state of the film; None where it has no memory."""
+        return FilmState(self._state) if self._depth.memory else None
+
+    def restore_model(self, state: FilmState) -> None:
+        """Take back the state of the film."""
+        self._state = state.numbers

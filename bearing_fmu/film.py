@@ -2,46 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu import depths
 from bearing_fmu.contact.greenwood_tripp import slice_table
-from bearing_fmu.evaluate import WORK, evaluate_v1, evaluate_v2, evaluate_v3
-from bearing_fmu.films.aligned.aligned import aligned_film
-from bearing_fmu.films.short.flooded import short_film
-from bearing_fmu.films.tilted.workspace import WorkSpace, stock, tilted_film, work_space
+from bearing_fmu.evaluate import WORK
 from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import scales
-from bearing_fmu.state_in_words import state_words
+from bearing_fmu.state_in_words import state_in_words
 from bearing_fmu.status import FilmFailure, FilmStatus
+from bearing_fmu.stock import Stock, WorkSpace, bring_back
+from fmus import port
+from fmus.port.variable import Value
 
-__all__ = ["BearingResponse", "Depth", "Film", "FilmFailure", "FilmStatus", "make_film"]
+__all__ = ["BearingResponse", "Film", "FilmFailure", "FilmStatus", "Solver", "make_film"]
 
 Floats = NDArray[np.float64]
 
-
-class Depth(StrEnum):
-    """Modelling depth of a bearing."""
-
-    V1 = "v1"
-    """Reynolds equation over the tilted gap."""
-    V2 = "v2"
-    """Reynolds equation, tilts and tilt rates ignored."""
-    V3 = "v3"
-    """Short bearing, tilts and tilt rates ignored."""
+_NO_MEMORY = np.zeros(0)
+_MOST_BOUND = 64
 
 
-_KERNELS: dict[Depth, Callable[..., int]] = {
-    Depth.V1: evaluate_v1,
-    Depth.V2: evaluate_v2,
-    Depth.V3: evaluate_v3,
-}
+@dataclass(frozen=True)
+class Solver:
+    """What one film of `bearing_fmu.films` brings to the port.
+
+    Attributes
+    ----------
+    name : str
+        For messages.
+    kernel : kernel
+        From `bearing_fmu.evaluate.port_kernel`.
+    prepare : callable
+        Makes what the kernel knows as the film, of parameters and the arrays of a work space.
+    tilts : bool
+        Whether the film sees tilts.
+    boundaries : tuple of str
+        Boundary conditions at the rupture that it offers.
+    stock : Stock, optional
+        From which films share their work spaces; by default each film has its own.
+    """
+
+    name: str
+    kernel: Callable[..., int]
+    prepare: Callable[[BearingParameters, dict[str, Any]], Any]
+    tilts: bool = False
+    boundaries: tuple[str, ...] = ("guembel",)
+    stock: Stock | None = None
 
 
 @dataclass(frozen=True)
@@ -85,69 +98,65 @@ class BearingResponse:
 
 
 class Film:
-    """Prepared evaluator of one bearing; made by `make_film`.
+    """Prepared evaluator of one bearing without memory, see `bearing_fmu.depths.Film`.
 
     Nothing is kept but work space, which no two evaluations use at a time: the same input gives the same
     output to the last bit, whatever was evaluated before and on whatever thread.
 
-    Attributes
+    Parameters
     ----------
-    depth : Depth
-        Modelling depth.
+    solver : Solver
+        The film.
     parameters : BearingParameters
         The bearing.
+    offset : array_like, shape (4,)
+        Bearing centre in the fixed frame: x, y in m, tilts in rad.
 
     Raises
     ------
     ValueError
-        A boundary condition that the depth does not have.
+        A boundary condition that the film does not have.
     """
 
-    def __init__(self, depth: Depth, parameters: BearingParameters) -> None:
-        if parameters.boundary != "guembel" and depth is not Depth.V1:
-            raise ValueError(f"bearing parameter boundary = {parameters.boundary!r} needs depth 'v1'")
-        self.depth = depth
+    def __init__(
+        self, solver: Solver, parameters: BearingParameters, offset: Floats | tuple[float, ...] = (0.0,) * 4
+    ) -> None:
+        if parameters.boundary not in solver.boundaries:
+            raise ValueError(
+                f"bearing parameter boundary = {parameters.boundary!r}: the {solver.name} film has "
+                f"{' and '.join(solver.boundaries)} only"
+            )
+        self.solver = solver
         self.parameters = parameters
+        self.offset = np.array(offset, dtype=np.float64)
         table = slice_table(parameters)
-        self._constants = scales(parameters, table, aligned=depth is not Depth.V1), table.coefficients
-        self._kernel = _KERNELS[depth]
-        # Of one resolution V1 shares its work space with other films, see `films.tilted.workspace`.
-        self._stock = stock(*self._resolution) if depth is Depth.V1 else []
+        self._constants = scales(parameters, table, aligned=not solver.tilts), table.coefficients
+        self._resolution = int(parameters.columns), int(parameters.rows)
+        self._kernel = solver.kernel
+        # of one resolution some films share their work space with others
+        self._free = [] if solver.stock is None else solver.stock.of(*self._resolution)
         self._bound: dict[WorkSpace, tuple[Any, ...]] = {}
 
-    @property
-    def _resolution(self) -> tuple[int, int]:
-        return int(self.parameters.columns), int(self.parameters.rows)
+    @classmethod
+    def of(cls, solver: Solver, values: Mapping[str, Value]) -> Film:
+        """The film of these parameters by the names of the port's variables."""
+        offset = tuple(float(values.get(f"offset.{name}", 0.0)) for name in port.POSITION)
+        return cls(solver, BearingParameters.of(values), offset)
 
-    def _data(self, space: WorkSpace) -> tuple[Any, ...]:
-        """What the kernel takes besides the port's arrays, in a work space."""
-        if space not in self._bound:
-            aspect = self.parameters.diameter / self.parameters.width
-            film: Any
-            match self.depth:
-                case Depth.V1:
-                    film = tilted_film(*self._resolution, aspect, space)
-                case Depth.V2:
-                    film = aligned_film(*self._resolution, aspect)
-                case Depth.V3:
-                    film = short_film(self._resolution[0])
-            self._bound[space] = *self._constants, film, np.zeros(WORK)
-        return self._bound[space]
+    def rest(self) -> Floats:
+        """No memory, no state."""
+        return _NO_MEMORY
 
-    def take(self) -> tuple[WorkSpace, tuple[Any, ...]]:
-        """A work space that nobody uses, to be brought back, and what the kernel takes in it."""
-        try:
-            space = self._stock.pop()
-        except IndexError:
-            space = work_space(*self._resolution) if self.depth is Depth.V1 else WorkSpace()
-        return space, self._data(space)
+    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
+        """Evaluate the port, see `bearing_fmu.depths.Film.evaluate`; raises `FilmFailure`."""
+        out = np.empty(OUTPUTS)
+        status = self.solve(inputs, self.offset, out)
+        if status:
+            raise self.failure(status, inputs, self.offset)
+        return out, state
 
-    def bring_back(self, space: WorkSpace) -> None:
-        """Let others use a work space."""
-        self._stock.append(space)
-
-    def evaluate(self, inputs: Floats, offset: Floats, out: Floats) -> int:
-        """Evaluate the port.
+    def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
+        """Evaluate the port into an array.
 
         Parameters
         ----------
@@ -167,14 +176,33 @@ class Film:
         try:
             return self._kernel(inputs, offset, out, *data)
         finally:
-            self.bring_back(space)
+            bring_back(self._free, space)
+
+    def take(self) -> tuple[WorkSpace, tuple[Any, ...]]:
+        """A work space that nobody uses, to be brought back, and what the kernel takes in it."""
+        try:
+            space = self._free.pop()
+        except IndexError:
+            stock = self.solver.stock
+            space = WorkSpace() if stock is None else stock.new(*self._resolution)
+        data = self._bound.get(space)
+        if data is None:
+            if len(self._bound) >= _MOST_BOUND:
+                self._bound.clear()
+            film = self.solver.prepare(self.parameters, space.arrays)
+            data = self._bound[space] = *self._constants, film, np.zeros(WORK)
+        return space, data
+
+    def bring_back(self, space: WorkSpace) -> None:
+        """Let others use a work space."""
+        bring_back(self._free, space)
 
     def failure(self, status: int, inputs: Floats, offset: Floats) -> FilmFailure:
-        """Return the error that belongs to a failed `evaluate`: status, advice and the relative state."""
+        """Return the error that belongs to a failed `solve`: status, advice and the relative state."""
         relative = inputs[:8] - inputs[8:16]
         relative[:4] -= offset
         speed = float(inputs[16])
-        words = state_words(self.parameters, relative[:4], relative[4:], speed, tilted=self.depth is Depth.V1)
+        words = state_in_words(self.parameters, relative[:4], relative[4:], speed, tilted=self.solver.tilts)
         return FilmFailure(FilmStatus(status), np.append(relative, speed), words)
 
     def respond(self, q: Floats, v: Floats, speed: float) -> BearingResponse:
@@ -196,10 +224,8 @@ class Film:
         inputs[:4] = q
         inputs[4:8] = v
         inputs[16] = speed
-        out = np.empty(OUTPUTS)
-        status = FilmStatus(self.evaluate(inputs, np.zeros(4), out))
-        if status is not FilmStatus.OK:
-            raise self.failure(status, inputs, np.zeros(4))
+        inputs[:4] += self.offset
+        out, _ = self.evaluate(_NO_MEMORY, inputs, 0.0)
         gap = out[OUT_GAP:]
         return BearingResponse(
             wrench=out[:OUT_F0].copy(),
@@ -217,13 +243,13 @@ class Film:
         )
 
 
-def make_film(depth: Depth | str, parameters: BearingParameters) -> Film:
+def make_film(depth: str, parameters: BearingParameters) -> Film:
     """Prepare the film of one bearing.
 
     Parameters
     ----------
-    depth : Depth or str
-        "v1", "v2" or "v3".
+    depth : str
+        Name of a depth of this package.
     parameters : BearingParameters
         The bearing.
 
@@ -232,9 +258,7 @@ def make_film(depth: Depth | str, parameters: BearingParameters) -> Film:
     ValueError
         Unknown depth.
     """
-    try:
-        chosen = Depth(depth)
-    except ValueError:
-        allowed = ", ".join(repr(d.value) for d in Depth)
-        raise ValueError(f"bearing depth {depth!r}: must be one of {allowed}") from None
-    return Film(chosen, parameters)
+    film = depths.find(depth).make(parameters.values())
+    if not isinstance(film, Film):
+        raise ValueError(f"bearing depth {depth!r}: none of the films of this package")
+    return film

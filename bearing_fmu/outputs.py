@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import least_gap
 from bearing_fmu.contact.contact import FORCE, FORCE_SLOPE, LOAD
-from bearing_fmu.films.tilted.workspace import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
 from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, NOT_FINITE, OK
 

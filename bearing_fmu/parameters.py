@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf, isfinite
+from typing import Any
 
-#: Admissible range of each parameter, ends included unless the range is open there.
-_RANGES: dict[str, tuple[float, float, str]] = {
-    "diameter": (0.0, inf, "> 0 (m)"),
-    "width": (0.0, inf, "> 0 (m)"),
-    "clearance": (0.0, inf, "> 0 (m)"),
-    "viscosity": (0.0, inf, "> 0 (Pa s)"),
-    "ambient_pressure": (0.0, inf, ">= 0 (Pa, over the cavity)"),
-    "roughness": (0.0, inf, ">= 0 and at most clearance / 10 (m)"),
-    "contact_modulus": (0.0, inf, ">= 0 (Pa)"),
-    "friction": (0.0, inf, ">= 0"),
-    "columns": (16, 512, "an integer from 16 to 512"),
-    "rows": (3, 30, "an integer from 3 to 30"),
-}
+from fmus import port
+from fmus.port.variable import Value
+
+_BOUNDARY = "film.boundary"
 _BOUNDARIES = ("guembel", "reynolds")
-_POSITIVE = ("diameter", "width", "clearance", "viscosity")
-_INTEGER = ("columns", "rows")
+_ROUGHEST = 0.1
+_COLUMNS, _ROWS = (int(port.bearing_parameter(key).start or 0) for key in ("columns", "rows"))
 
 
 @dataclass(frozen=True)
@@ -48,7 +40,8 @@ class BearingParameters:
         Resolution of the film around the circumference and along the axis.
     boundary : str
         Where the film ruptures: "guembel" (negative pressure zeroed, the port's condition) or "reynolds"
-        (pressure and its gradient vanish together), which V1 alone offers, at some five times the effort.
+        (pressure and its gradient vanish together), which the tilted film alone offers, at some five times
+        the effort; not a variable of the FMUs yet.
 
     Raises
     ------
@@ -64,28 +57,36 @@ class BearingParameters:
     roughness: float = 0.0
     contact_modulus: float = 0.0
     friction: float = 0.0
-    columns: int = 48
-    rows: int = 8
+    columns: int = _COLUMNS
+    rows: int = _ROWS
     boundary: str = "guembel"
 
     def __post_init__(self) -> None:
         if self.boundary not in _BOUNDARIES:
             allowed = " or ".join(repr(b) for b in _BOUNDARIES)
             raise ValueError(f"bearing parameter boundary = {self.boundary!r}: must be {allowed}")
-        for key, (low, high, allowed) in _RANGES.items():
-            value = getattr(self, key)
-            valid = isfinite(value) and low <= value <= high
-            if key in _POSITIVE:
-                valid = valid and value > 0.0
-            if key in _INTEGER:
-                valid = valid and value == int(value)
-            if not valid:
-                raise ValueError(f"bearing parameter {key} = {value!r}: must be {allowed}")
-        if self.roughness > 0.1 * self.clearance:
+        for key in port.BEARING_KEYS:
+            value, variable = getattr(self, key), port.bearing_parameter(key)
+            if not variable.admits(value):
+                raise ValueError(f"bearing parameter {key} = {value!r}: must be {variable.range}")
+        if self.roughness > _ROUGHEST * self.clearance:
             raise ValueError(
-                f"bearing parameter roughness = {self.roughness!r}: must be {_RANGES['roughness'][2]}, "
-                f"here {0.1 * self.clearance:g}"
+                f"bearing parameter roughness = {self.roughness!r}: must be at most clearance / 10, "
+                f"here {_ROUGHEST * self.clearance:g} m"
             )
+
+    @classmethod
+    def of(cls, values: Mapping[str, Value]) -> BearingParameters:
+        """The bearing of these values by the names of the port's variables."""
+        given: dict[str, Any] = {key: values[name] for key, name in port.BEARING_KEYS.items()}
+        given |= {key: int(given[key]) for key in ("columns", "rows")}
+        return cls(**given, boundary=str(values.get(_BOUNDARY, _BOUNDARIES[0])))
+
+    def values(self) -> dict[str, Value]:
+        """What `of` takes."""
+        return {name: getattr(self, key) for key, name in port.BEARING_KEYS.items()} | {
+            _BOUNDARY: self.boundary
+        }
 
     @property
     def radius(self) -> float:

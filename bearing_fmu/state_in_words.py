@@ -9,7 +9,7 @@ from bearing_fmu.bore.gap import least_gap
 from bearing_fmu.parameters import BearingParameters
 
 
-def state_words(
+def state_in_words(
     parameters: BearingParameters, q: ArrayLike, v: ArrayLike, speed: float, *, tilted: bool
 ) -> str:
     """Say where a journal stands in its bore.

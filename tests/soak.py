@@ -18,9 +18,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fmus.build.builder import build
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import simulate
+from orchestrator.fmi.folder import build
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 

@@ -16,7 +16,7 @@ from zipfile import ZipFile
 from fmpy.ssp.ssd import read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 
-from fmus.build.builder import build
+from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from rotor_fmu.train.file import bundled_trains, load_train

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.scales import Scales
 
 Floats = NDArray[np.float64]
@@ -93,6 +93,12 @@ def add_slice(
         result[at + 1] += b
         result[at + 2] -= z * b
         result[at + 3] += z * a
+
+
+@stage
+def add_aligned(scales: Scales, table: Floats, q: Floats, grip: float, result: Floats) -> None:
+    """Add the contact over the aligned gap; parameters as in `add_tilted`."""
+    add_slice(scales, table, q[0], q[1], 0.0, scales.width, grip, result)
 
 
 @inner_kernel

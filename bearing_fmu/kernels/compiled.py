@@ -44,6 +44,20 @@ def kernel(function: _Function) -> _Function:
     return _compile(function, {"no_cfunc_wrapper": True})
 
 
+def variant(name: str, function: _Function) -> _Function:
+    """Compile a `kernel` of which there are several, made by one function around other kernels.
+
+    Parameters
+    ----------
+    name : str
+        Tells its compiled code from that of the others.
+    function : callable
+        Draws on kernels of the function around it.
+    """
+    function.__qualname__ = f"{function.__name__}_{name}"
+    return kernel(function)
+
+
 def inner_kernel(function: _Function) -> _Function:
     """Compile `function` for use in other kernels only, which compiles faster.
 
@@ -69,6 +83,8 @@ def _compile(function: _Function, more: dict[str, Any]) -> _Function:
         return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
     cache = dispatcher._cache
     cache._cache_file._source_stamp = _SOURCES
+    # numba's own key holds what a function draws on, which is another object in every process
+    cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
     save = cache.save_overload
 
     def save_if_possible(*arguments: Any) -> None:

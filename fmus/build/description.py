@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from pythonfmu import Fmi2Slave
 
-from fmus.build.memoryless import annotate
+from fmus.build.promises import annotate
 from fmus.port.variable import UNITS, Value, Variable
 
 STEP_SIZE = 1e-4
@@ -42,7 +42,7 @@ class Identity:
 
 
 def model_description(
-    identity: Identity, variables: Sequence[Variable], *, memoryless: bool = False
+    identity: Identity, variables: Sequence[Variable], *, promises: Sequence[str] = ()
 ) -> bytes:
     """Return the modelDescription.xml of a unit.
 
@@ -52,8 +52,8 @@ def model_description(
         Name, GUID, version.
     variables : sequence of Variable
         The port, in the order of the value references.
-    memoryless : bool
-        Say so, see `fmus.build.memoryless`.
+    promises : sequence of str
+        See `fmus.build.promises`.
 
     Returns
     -------
@@ -90,8 +90,8 @@ def model_description(
     for name, text in Fmi2Slave.log_categories.items():
         SubElement(categories, "Category", name=name, description=text)
     SubElement(root, "DefaultExperiment", startTime="0.0", stopTime=repr(STOP_TIME), stepSize=repr(STEP_SIZE))
-    if memoryless:
-        annotate(root)
+    if promises:
+        annotate(root, promises)
     listed = SubElement(root, "ModelVariables")
     for reference, variable in enumerate(variables):
         listed.append(_scalar_variable(variable, reference))

@@ -23,7 +23,7 @@ from fmus.unit import loader
 _NAMESPACE = uuid.UUID("6f0d3f5e-6a5b-5d0c-9d3f-2f6a1c0b7e11")
 _BUILDERS = (
     "build/description.py",
-    "build/memoryless.py",
+    "build/promises.py",
     "build/describe.py",
     "build/recipe.py",
     "build/sources.py",
@@ -71,8 +71,10 @@ class Recipe:
         Modules that `variables` draws on; they stay outside, but count in the digest.
     starts : mapping
         Start values in place of those of the port, by variable name.
-    memoryless : bool
-        See `fmus.build.memoryless`.
+    promises : tuple of str
+        See `fmus.build.promises`.
+    modules : tuple of str
+        Modules that the facade imports by name, which no import statement shows.
     """
 
     file_name: str
@@ -87,12 +89,13 @@ class Recipe:
     keeps_starts: bool = False
     builder_modules: tuple[str, ...] = ()
     starts: Mapping[str, Value] = field(default_factory=dict)
-    memoryless: bool = False
+    promises: tuple[str, ...] = ()
+    modules: tuple[str, ...] = ()
 
     @cached_property
     def sources(self) -> dict[str, dict[str, bytes]]:
         """Files of each package; of `fmus` the same for each unit, so that units share it."""
-        return source_files((self.facade, "fmus.port"), self.packages)
+        return source_files((self.facade, *self.modules, "fmus.port"), self.packages)
 
     @cached_property
     def digest(self) -> str:
@@ -105,7 +108,7 @@ class Recipe:
         files |= {f"resources/{name}": content for name, content in self.resources.items()}
         said = (self.file_name, self.name, self.description, self.facade, self.facade_class)
         made_with = (metadata.version("pythonfmu"), version(), dict(self.arguments), dict(self.starts))
-        files["recipe"] = json.dumps([said, made_with, self.memoryless], sort_keys=True).encode()
+        files["recipe"] = json.dumps([said, made_with, self.promises], sort_keys=True).encode()
         return loader.digest_of(files.items())
 
     @property
@@ -130,7 +133,7 @@ class Recipe:
             arguments=dict(self.arguments),
         )
         files = {
-            "modelDescription.xml": model_description(identity, variables, memoryless=self.memoryless),
+            "modelDescription.xml": model_description(identity, variables, promises=self.promises),
             "documentation/index.html": page(identity, variables),
             "resources/slavemodule.txt": entry.encode(),
             f"resources/{entry}.py": script.encode(),

@@ -23,12 +23,20 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from fmus.port.balance import BALANCE, ENERGY, TRACK_WORK, WORK
+from fmus.port.bearing import (
+    BEARING,
+    BEARING_INPUTS,
+    BEARING_KEYS,
+    BEARING_OUTPUTS,
+    BEARING_PARAMETERS,
+    bearing_parameter,
+    default_of,
+)
 from fmus.port.connector import (
     F0,
     FORCE,
     HOUSING,
     JOURNAL,
-    KINEMATIC_TEXT,
     KINEMATIC_UNITS,
     KINEMATICS,
     LAW,
@@ -37,8 +45,6 @@ from fmus.port.connector import (
     SPEED,
     VELOCITY,
     WRENCH,
-    WRENCH_TEXT,
-    WRENCH_UNITS,
     C,
     K,
     kinematics,
@@ -50,6 +56,7 @@ from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability,
 __all__ = [
     "BEARING",
     "BEARING_INPUTS",
+    "BEARING_KEYS",
     "BEARING_OUTPUTS",
     "BEARING_PARAMETERS",
     "ENERGY",
@@ -75,82 +82,11 @@ __all__ = [
     "Variability",
     "Variable",
     "at_bearing",
+    "bearing_parameter",
+    "default_of",
     "rotor",
     "with_starts",
 ]
-
-CLEARANCE = 8.62e-4
-JOURNAL_HEIGHT = -0.5 * CLEARANCE  # a bearing on its own starts at half its clearance
-
-BEARING_INPUTS: tuple[Variable, ...] = (
-    *(
-        replace(v, start=JOURNAL_HEIGHT) if v.name == "journal.y" else v
-        for v in kinematics("journal", "journal", "input")
-    ),
-    *kinematics("housing", "housing", "input"),
-    Variable(SPEED, "input", "rad/s", "rotor speed, positive from x to y", NOMINAL_SPEED, nominal=100.0),
-)
-_ON_STATE = tuple(v.name for v in BEARING_INPUTS)
-
-_OFFSET_TEXT = "bearing centre in the fixed frame: "
-
-BEARING_PARAMETERS: tuple[Variable, ...] = (
-    *(
-        Variable(name, "parameter", unit, text, start, minimum=minimum, nominal=nominal)
-        for name, unit, text, start, minimum, nominal in (
-            ("diameter", "m", "journal diameter d", 0.80, 0.0, 1.0),
-            ("width", "m", "bearing width b", 0.64, 0.0, 1.0),
-            ("clearance", "m", "radial clearance C = psi d/2", CLEARANCE, 0.0, 1e-3),
-            ("viscosity", "Pa.s", "dynamic viscosity eta of the oil", 0.0242, 0.0, 1e-2),
-            ("ambient_pressure", "Pa", "pressure at the bearing's ends, over the cavity", 0.0, None, 1e5),
-            ("contact.roughness", "m", "combined roughness sigma of journal and bore", 3e-6, 0.0, 1e-6),
-            ("contact.modulus", "Pa", "contact factor K'E' of p_c = K'E' F_5/2(h/sigma)", 1e9, 0.0, 1e9),
-            ("contact.friction", "", "friction coefficient of solid contact", 0.1, 0.0, 0.1),
-        )
-    ),
-    *(
-        Variable(f"offset.{name}", "parameter", unit, _OFFSET_TEXT + text, 0.0, nominal=1e-4)
-        for name, unit, text in zip(POSITION, KINEMATIC_UNITS[:4], KINEMATIC_TEXT[:4], strict=True)
-    ),
-    *(
-        Variable(name, "parameter", "", f"film resolution {text}", start, minimum=minimum, kind="Integer")
-        for name, text, start, minimum in (
-            ("film.columns", "around the circumference", 48, 16),
-            ("film.rows", "along the axis", 8, 3),
-        )
-    ),
-)
-
-_AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
-
-_OUTPUTS: tuple[Variable, ...] = (
-    *(
-        Variable(name, "output", unit, f"wrench on the rotor: {text}", nominal=1e6, depends_on=_ON_STATE)
-        for name, unit, text in zip(FORCE, WRENCH_UNITS, WRENCH_TEXT, strict=True)
-    ),
-    *law("output", depends_on=_ON_STATE),
-    *(
-        Variable(name, "output", unit, text, minimum=minimum, nominal=nominal, depends_on=_ON_STATE)
-        for name, unit, text, minimum, nominal in (
-            ("h_min", "m", "least gap over the whole film; negative: asperities flattened", None, 1e-4),
-            ("h_min_centre", "m", "least gap on the centre line of the bearing", None, 1e-4),
-            ("h_min_z", "m", "axial position of the least gap, from the mid-plane", None, 1e-1),
-            ("p_max", "Pa", "largest film pressure", 0.0, 1e7),
-            ("contact_force", "N", "integral of the solid contact pressure", 0.0, 1e6),
-            ("contact.Fx", "N", "part of the wrench from solid contact: force in x", None, 1e6),
-            ("contact.Fy", "N", "part of the wrench from solid contact: force in y", None, 1e6),
-            ("contact.Mx", "N.m", "part of the wrench from solid contact: moment about x", None, 1e6),
-            ("contact.My", "N.m", "part of the wrench from solid contact: moment about y", None, 1e6),
-            ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
-            ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
-            ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
-        )
-    ),
-)
-BEARING_OUTPUTS = tuple(replace(v, starts_on=_AT_START) for v in _OUTPUTS)
-
-BEARING: tuple[Variable, ...] = BEARING_INPUTS + BEARING_OUTPUTS + BEARING_PARAMETERS
-"""The unit of every bearing depth, in the order of its value references."""
 
 
 def at_bearing(index: int, name: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf, isfinite
 from typing import Literal
 
 Causality = Literal["input", "output", "parameter", "calculatedParameter", "local"]
@@ -27,8 +28,10 @@ class Variable:
         One line, with sign convention where it matters.
     start : float, int, bool, str or None
         Start value of inputs and parameters.
-    minimum, nominal : float or None
-        For Real variables, where physics gives them.
+    minimum, maximum, nominal : float or None
+        Where physics gives them.
+    above : bool
+        Whether the minimum itself is excluded.
     depends_on : tuple of str
         Names of the inputs an output depends on directly.
     starts_on : tuple of str or None
@@ -52,6 +55,8 @@ class Variable:
     starts_on: tuple[str, ...] | None = None
     kind: Kind = "Real"
     lazy: str = ""
+    maximum: float | None = None
+    above: bool = False
 
     @property
     def variability(self) -> Variability:
@@ -59,6 +64,24 @@ class Variable:
         if self.causality in ("parameter", "calculatedParameter"):
             return "fixed"
         return "continuous" if self.kind == "Real" else "discrete"
+
+    @property
+    def range(self) -> str:
+        """The range of a number in words, with its unit."""
+        unit = f" ({self.unit})" if self.unit else ""
+        low, high = self.minimum, self.maximum
+        if low is None and high is None:
+            return f"a finite number{unit}"
+        if low is not None and high is not None:
+            return f"{'an integer ' if self.kind == 'Integer' else ''}from {low:g} to {high:g}{unit}"
+        return f"<= {high:g}{unit}" if low is None else f"{'>' if self.above else '>='} {low:g}{unit}"
+
+    def admits(self, value: float) -> bool:
+        """Tell whether a number is finite and in the range."""
+        low = -inf if self.minimum is None else self.minimum
+        high = inf if self.maximum is None else self.maximum
+        whole = self.kind != "Integer" or (isfinite(value) and value == int(value))
+        return isfinite(value) and whole and low <= value <= high and not (self.above and value == low)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from bearing_fmu import depths
 from orchestrator.case.case import Case, folder_case
 from orchestrator.case.progress import Progress, Stage
 from orchestrator.errors import EquilibriumError
@@ -36,9 +37,6 @@ from orchestrator.results.validity import unresolved
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
-
-QUICK_DEPTHS = ("v2", "v3")
-"""Films of some microseconds, which threads would only delay."""
 
 WORTH_A_THREAD = 4
 """Bearings with a slow film from which a second thread gains more than its handing over costs."""
@@ -117,7 +115,8 @@ def execute(case: Case, progress: Progress | None = None, execution: Execution |
 
 def default_threads(scenario: Scenario, train: Train) -> int:
     """Two threads where the films take long enough for it to pay, and there are processors; else one."""
-    slow = sum(scenario.depth_of(seat.name) not in QUICK_DEPTHS for seat in train.bearings)
+    quick = {depth.name for depth in depths.depths() if depth.quick}
+    slow = sum(scenario.depth_of(seat.name) not in quick for seat in train.bearings)
     return 2 if slow >= WORTH_A_THREAD and (os.cpu_count() or 1) > 1 else 1
 
 

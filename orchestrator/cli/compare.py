@@ -14,7 +14,7 @@ COMPARE_HELP = (
     "Run a scenario at several depths and hold the results beside one another.\n\n"
     "The runs go side by side, each as a [bold]bladeloss run[/bold] of its own. Left are the figures with "
     "all depths, the table of forces, gaps, contact, amplitude and stress with their differences, what an "
-    "engineer would have concluded from each depth, and the folders of the runs (v1, v2, v3). The bundled "
+    "engineer would have concluded from each depth, and the folders of the runs. The bundled "
     "scenario is held against the paper's study: 14 rows (paper, here, verdict, and the reason for what is "
     "missed).\n\n"
     "[bold]--check[/bold] repeats everything with twice the film resolution and half the macro step and "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from orchestrator.cli.options import Depth, FigureFormats, Format, Trust, guarded
+from orchestrator.cli.options import DEPTH_CHOICE, Depth, FigureFormats, Format, Trust, guarded
 from orchestrator.cli.wrong_use import one_of
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ Source = Annotated[
 FilmDepth = Annotated[
     Depth | None,
     typer.Option(
-        metavar="v1|v2|v3",
+        metavar=DEPTH_CHOICE,
         parser=one_of(Depth, "--depth"),
         help="Of the films that are linearised; by default the scenario's.",
     ),

@@ -9,6 +9,7 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 
 import typer
 
+from bearing_fmu import depths
 from orchestrator.cli.wrong_use import one_of
 
 Trust = Annotated[
@@ -22,12 +23,9 @@ Budget = Annotated[
 ]
 
 
-class Depth(StrEnum):
-    """Modelling depth of a bearing."""
-
-    V1 = "v1"
-    V2 = "v2"
-    V3 = "v3"
+Depth = StrEnum("Depth", {name: name for name in depths.names()})  # type: ignore[misc]
+"""Modelling depth of a bearing."""
+DEPTH_CHOICE = "|".join(depths.names())
 
 
 class Coupling(StrEnum):
@@ -61,9 +59,9 @@ class Format(StrEnum):
 GivenDepth = Annotated[
     Depth | None,
     typer.Option(
-        metavar="v1|v2|v3",
+        metavar=DEPTH_CHOICE,
         parser=one_of(Depth, "--depth"),
-        help="All bearings: v1 Reynolds with misalignment, v2 aligned, v3 short bearing.",
+        help=f"All bearings: {'; '.join(f'{depth.name} {depth.title}' for depth in depths.depths())}.",
     ),
 ]
 FigureFormats = Annotated[

@@ -10,6 +10,7 @@ from typing import Any
 
 from rich.console import Console
 
+from bearing_fmu import depths as registry
 from orchestrator.errors import NotWrittenError
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.watchdog import BUDGET
@@ -26,7 +27,6 @@ from orchestrator.results.folder import (
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.problems import record_size
-from orchestrator.scenario.scenario import DEPTHS
 from orchestrator.study.children import COMMAND
 from orchestrator.study.compare import COMPARED, Means, refine, run_depths
 from orchestrator.study.comparison import settings_of
@@ -37,7 +37,7 @@ CHECK = "check"
 """Folder of the runs at the finer resolution."""
 SIGN = "comparison.json"
 """File by which an earlier comparison is known."""
-_OURS = ("comparison.txt", SIGN, "comparison.csv", COMPARED, *DEPTHS, CHECK, FIGURES, PARTIAL)
+_OURS = ("comparison.txt", SIGN, "comparison.csv", COMPARED, *registry.names(), CHECK, FIGURES, PARTIAL)
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class CompareRequest:
     fmus : Path
         Folder of the FMUs.
     depths : sequence of str
-        To be compared.
+        To be compared; empty: all.
     jobs : int or None
         Runs at the same time; None: one a core.
     check : bool
@@ -70,7 +70,7 @@ class CompareRequest:
     overrides: Mapping[str, Any] = field(default_factory=dict)
     out: Path | None = None
     fmus: Path = Path("fmus")
-    depths: Sequence[str] = DEPTHS
+    depths: Sequence[str] = ()
     jobs: int | None = None
     check: bool = False
     formats: Sequence[str] = ("png",)
@@ -104,7 +104,8 @@ def run(
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
     refined = refine(scenario) if request.check else None
-    train, depths = train_of(scenario), [depth for depth in DEPTHS if depth in request.depths]
+    train, asked = train_of(scenario), request.depths or registry.names()
+    depths = [depth for depth in registry.names() if depth in asked]
     folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
     check_folder(folder, SIGN)
     check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(depths))

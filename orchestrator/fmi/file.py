@@ -15,7 +15,7 @@ from typing import Any, Protocol
 
 import fmpy
 
-from fmus.build.memoryless import is_memoryless
+from fmus.build.promises import promises_of
 from orchestrator.errors import FmuError
 from orchestrator.fmi.archive import LIMITS, ArchiveError, Limits, extract
 from orchestrator.fmi.xml import XmlError, read_xml
@@ -56,8 +56,8 @@ class FmuFile:
         Those that live.
     size : int
         Bytes that it holds extracted.
-    memoryless : bool
-        Whether it says that its outputs follow from its inputs alone, see `fmus.build.memoryless`.
+    promises : frozenset of str
+        What it says of itself, see `fmus.build.promises`.
 
     Raises
     ------
@@ -71,7 +71,7 @@ class FmuFile:
         self.instances: list[Instance] = []
         try:
             self.size = extract(path, folder, "FMU", limits)
-            self.memoryless = is_memoryless(read_xml(folder / _DESCRIPTION))
+            self.promises = promises_of(read_xml(folder / _DESCRIPTION))
             if (folder / _SOURCES).exists():
                 read_xml(folder / _SOURCES)
             self.description: Any = fmpy.read_model_description(folder)

@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
 
-from fmus.build.builder import build, refresh
+from bearing_fmu import depths
+from bearing_fmu.recipe import bearing_recipe
+from fmus.build import builder
+from fmus.build.recipe import Recipe
 from orchestrator.errors import FmuError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.scenario.file import read_train
 from orchestrator.scenario.scenario import is_fmu
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
 
+def recipes(trains: Iterable[Train], names: Iterable[str]) -> list[Recipe]:
+    """A rotor for each train, a bearing for each of these depths; ValueError for an unfit name."""
+    return [rotor_recipe(train) for train in trains] + [bearing_recipe(name) for name in names]
+
+
+def build(out: Path, trains: Iterable[Train] = (), names: Iterable[str] | None = None) -> list[Path]:
+    """Build the rotors of trains and the bearings of depths, by default of all, in the folder `out`."""
+    return builder.build(out, recipes(trains, depths.names() if names is None else names))
+
+
 @one_blas_thread()
-def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Console) -> list[Path]:
+def ensure_fmus(folder: Path, train: Train, names: Collection[str], console: Console) -> list[Path]:
     """Build the FMUs that a run needs and the folder lacks, or holds from other sources or data.
 
     Parameters
@@ -25,7 +39,7 @@ def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Co
         Folder of the FMUs, made if missing.
     train : Train
         The train; its rotor is one FMU.
-    depths : collection of str
+    names : collection of str
         Depths of the bearings; one FMU each. Paths of FMUs are left alone.
     console : rich.console.Console
         Told what was built.
@@ -41,7 +55,7 @@ def ensure_fmus(folder: Path, train: Train, depths: Collection[str], console: Co
         When the folder cannot be written to.
     """
     try:
-        built = refresh(folder, [train], sorted(depth for depth in depths if not is_fmu(depth)))
+        built = builder.refresh(folder, recipes([train], sorted(name for name in names if not is_fmu(name))))
     except OSError as error:
         raise FmuError(f"{folder}: FMUs cannot be built there: {error}") from error
     if built:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import typer
 
-from fmus.build.own import is_own
 from orchestrator.errors import OrchestratorError
+from orchestrator.fmi.own import is_own
 from orchestrator.scenario.scenario import Scenario, is_fmu
 
 _WHAT = "holds native code that bladeloss did not build and that runs with all your rights"

@@ -15,10 +15,10 @@ from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
     bearing_path,
-    rotor_file,
     rotor_parameters,
 )
 from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.recipe import file_name as rotor_file
 from rotor_fmu.train.train import Train
 
 

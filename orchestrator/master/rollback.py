@@ -6,6 +6,7 @@ import ctypes
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
+from fmus.build.promises import MEMORYLESS
 from orchestrator.errors import FmuError
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.graph import Graph
@@ -29,8 +30,12 @@ class Rollback:
     def __init__(self, units: Sequence[Unit], graph: Graph) -> None:
         self._graph = graph
         self._inputs, self._outputs = graph.inputs.copy(), graph.outputs.copy()
-        self._fixed = [u for u in units if not (u.file.memoryless or u.file.can_keep_state)]
-        kept = [] if self._fixed else [_KeptState(unit) for unit in units if not unit.file.memoryless]
+        self._fixed = [u for u in units if not (MEMORYLESS in u.file.promises or u.file.can_keep_state)]
+        kept = (
+            []
+            if self._fixed
+            else [_KeptState(unit) for unit in units if MEMORYLESS not in unit.file.promises]
+        )
         self._kept = tuple(kept)
         self._marked = False
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from bearing_fmu.recipe import file_name as bearing_file
 from fmus import port
 from orchestrator.scenario.scenario import FilmResolution, Scenario, is_fmu
 from rotor_fmu.train.train import BearingSeat, Train
@@ -12,15 +13,10 @@ from rotor_fmu.train.train import BearingSeat, Train
 Values = dict[str, float | int | bool | str]
 
 
-def rotor_file(train: Train) -> str:
-    """Return the file name of the rotor FMU of a train."""
-    return "rotor.fmu" if train.name == "turbine" else f"rotor_{train.name}.fmu"
-
-
 def bearing_path(scenario: Scenario, bearing: str, fmus: Path) -> Path:
     """Return the path of the FMU of a bearing: of its depth in the folder `fmus`, or the user's own."""
     depth = scenario.depth_of(bearing)
-    return scenario.folder / depth if is_fmu(depth) else fmus / f"bearing_{depth}.fmu"
+    return scenario.folder / depth if is_fmu(depth) else fmus / bearing_file(depth)
 
 
 def rotor_parameters(scenario: Scenario, train: Train) -> Values:
@@ -74,16 +70,8 @@ def bearing_parameters(seat: BearingSeat, film: FilmResolution) -> Values:
         Values by variable name.
     """
     return {
-        "diameter": seat.diameter,
-        "width": seat.width,
-        "clearance": seat.clearance,
-        "viscosity": seat.viscosity,
-        "ambient_pressure": seat.ambient_pressure,
-        "contact.roughness": seat.roughness,
-        "contact.modulus": seat.contact_modulus,
-        "contact.friction": seat.friction,
-        "film.columns": film.columns,
-        "film.rows": film.rows,
+        name: getattr(film if key in FilmResolution.model_fields else seat, key)
+        for key, name in port.BEARING_KEYS.items()
     }
 
 

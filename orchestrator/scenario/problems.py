@@ -39,6 +39,9 @@ def shape_problems(error: ValidationError) -> Iterator[Problem]:
         elif kind == "literal_error":
             value = problem["input"]
             text = f"{where} = {shown(value)}; {choice(str(value), _literals(path))}"
+        elif kind == "depth":
+            value = problem["input"]
+            text = f"{where} = {shown(value)}; {choice(str(value), problem['ctx']['allowed'])}"
         else:
             text = refusal(where, problem, _description(path))
         yield problem["loc"], text
@@ -152,11 +155,7 @@ def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
 def _literals(path: list[str]) -> tuple[str, ...]:
     """What is allowed where a literal is expected."""
     model, key = _owner(path)
-    allowed = typing.get_args(model.model_fields[key].annotation) if model else ()
-    if all(isinstance(a, str) for a in allowed):
-        return allowed
-    literal, *_ = typing.get_args(allowed[-1])  # a table whose values are depths or files
-    return (*typing.get_args(literal), "the path of an .fmu file")
+    return typing.get_args(model.model_fields[key].annotation) if model else ()
 
 
 def _description(path: list[str]) -> str | None:

@@ -10,27 +10,38 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidatorFunctionWrapHandler, WrapValidator
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator
+from pydantic_core import PydanticCustomError
 
-Depth = Literal["v1", "v2", "v3"]
+from bearing_fmu import depths
+from fmus import port
+
 Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 CouplingName = Literal["linear-implicit", "newton", "iqn-ils", "gauss-seidel", "jacobi"]
 
-DEPTHS: tuple[str, ...] = get_args(Depth)
 REDUCTIONS: tuple[str, ...] = get_args(Reduction)
 COUPLINGS: tuple[str, ...] = get_args(CouplingName)
 
 
 def is_fmu(depth: str) -> bool:
-    """Whether a depth is the path of an FMU, somebody's own bearing, and none of `DEPTHS`."""
+    """Whether a depth is the path of an FMU, somebody's own bearing, and none of `bearing_fmu.depths`."""
     return depth.endswith(".fmu")
 
 
-def _or_fmu(value: Any, check: ValidatorFunctionWrapHandler) -> Any:
-    return value if isinstance(value, str) and is_fmu(value) else check(value)
+def _check_depth(value: Any) -> Any:
+    if isinstance(value, str) and value in depths.names():
+        return value
+    raise PydanticCustomError("depth", "no depth", {"allowed": depths.names()})
 
 
-DepthOrFmu = Annotated[Depth, WrapValidator(_or_fmu)]
+def _check_depth_or_fmu(value: Any) -> Any:
+    if isinstance(value, str) and (is_fmu(value) or value in depths.names()):
+        return value
+    raise PydanticCustomError("depth", "no depth", {"allowed": (*depths.names(), "the path of an .fmu file")})
+
+
+Depth = Annotated[str, PlainValidator(_check_depth)]
+DepthOrFmu = Annotated[str, PlainValidator(_check_depth_or_fmu)]
 """A depth, or the path of an FMU with the port of a bearing."""
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
@@ -99,6 +110,12 @@ class BladeFracture(_Model):
     time: NotNegative
 
 
+def _whole(key: str) -> Any:
+    """A whole number with range and default of a bearing's parameter."""
+    variable = port.bearing_parameter(key)
+    return Field(int(variable.start or 0), ge=variable.minimum, le=variable.maximum)
+
+
 class FilmResolution(_Model):
     """Resolution of the films that solve the Reynolds equation.
 
@@ -110,8 +127,8 @@ class FilmResolution(_Model):
         Along the axis.
     """
 
-    columns: Annotated[int, Field(ge=16, le=512)] = 48
-    rows: Annotated[int, Field(ge=3, le=30)] = 8
+    columns: int = _whole("columns")
+    rows: int = _whole("rows")
 
 
 class RecordSettings(_Model):
@@ -139,7 +156,7 @@ class Scenario(_Model):
     reduction : str
         Reduction of the shaft, one of `REDUCTIONS`.
     depth : str
-        Modelling depth of every bearing, one of `DEPTHS`.
+        Modelling depth of every bearing, one of `bearing_fmu.depths`.
     depth_at : dict
         Depth by name of the bearing, where it differs; or the path of an FMU with the port of a
         bearing, relative to the scenario's file.
@@ -175,7 +192,7 @@ class Scenario(_Model):
     title: str = ""
     train: str
     reduction: Reduction = "irs"
-    depth: Depth = "v1"
+    depth: Depth = depths.names()[0]
     depth_at: dict[str, DepthOrFmu] = {}
     unbalance: Unbalance = Unbalance()
     event: BladeFracture | None = None

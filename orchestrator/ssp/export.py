@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from bearing_fmu.recipe import bearing_recipe
 from fmus import port
 from fmus.build.archive import write_archive
-from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from fmus.build.builder import write
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit
@@ -23,13 +24,14 @@ from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
     offset_names,
-    rotor_file,
     rotor_parameters,
     start_names,
 )
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from orchestrator.ssp.structure import ROTOR, Component, Connector, SspError, Structure
 from orchestrator.ssp.writer import documents
+from rotor_fmu.recipe import file_name as rotor_file
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
 

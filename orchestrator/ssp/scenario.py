@@ -8,6 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from bearing_fmu import depths
+from bearing_fmu.recipe import PREFIX
 from fmus import port
 from orchestrator.errors import ScenarioError
 from orchestrator.fmi.file import FmuFile
@@ -15,7 +17,7 @@ from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import Wiring
 from orchestrator.scenario.file import replaced
 from orchestrator.scenario.problems import shape_problems, time_problems, unbalance_problems
-from orchestrator.scenario.scenario import DEPTHS, Scenario
+from orchestrator.scenario.scenario import FilmResolution, Scenario
 from orchestrator.ssp.contents import Contents, value_of
 from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.checks import film_problems
@@ -23,16 +25,7 @@ from rotor_fmu.train.checks import film_problems
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
 _ALLOWED = ("end", "step", "coupling", "tolerance", "ledger")
 
-_FILM = {
-    "diameter": "diameter",
-    "width": "width",
-    "clearance": "clearance",
-    "viscosity": "viscosity",
-    "ambient_pressure": "ambient_pressure",
-    "roughness": "contact.roughness",
-    "contact_modulus": "contact.modulus",
-    "friction": "contact.friction",
-}
+_FILM = {key: name for key, name in port.BEARING_KEYS.items() if key not in FilmResolution.model_fields}
 """Variables of a bearing of bladeloss by the keys of a train file."""
 
 
@@ -74,14 +67,14 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     end = overrides.get("end") or structure.end or DEFAULT_END
     own = {} if structure.tolerance is None else {"tolerance": structure.tolerance}
     first = contents.bearings[0]
-    depths = {
+    found = {
         seat.name: _depth(contents.files[c.name])
         for seat, c in zip(train.bearings, contents.bearings, strict=True)
     }
-    common = next((depth for depth in depths.values() if depth in DEPTHS), DEPTHS[0])
+    common = next((depth for depth in found.values() if depth in depths.names()), depths.names()[0])
     film = {
         key: _whole(value_of(contents, first, f"film.{key}"))
-        for key in ("columns", "rows")
+        for key in FilmResolution.model_fields
         if f"film.{key}" in contents.files[first.name].variables
     }
     values: dict[str, Any] = {
@@ -89,7 +82,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "train": train.name,
         "reduction": value_of(contents, contents.rotor, "reduction"),
         "depth": common,
-        "depth_at": {name: depth for name, depth in depths.items() if depth != common},
+        "depth_at": {name: depth for name, depth in found.items() if depth != common},
         "unbalance": _unbalance(contents),
         "event": _event(contents, end),
         "end": end,
@@ -132,8 +125,8 @@ def _film_problems(contents: Contents) -> Iterator[str]:
 
 def _depth(file: FmuFile) -> str:
     """Return the depth of a bearing of bladeloss; of others the file name."""
-    depth = str(file.description.modelName).removeprefix("bladeloss_bearing_")
-    return depth if depth in DEPTHS else file.path.name
+    depth = str(file.description.modelName).removeprefix(PREFIX)
+    return depth if depth in depths.names() else file.path.name
 
 
 def _wheel_values(contents: Contents, key: str) -> list[float]:

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from fmus import port
 from rotor_fmu.train.toml_source import Problem
 from rotor_fmu.train.wording import choice, refusal
 
@@ -107,9 +108,9 @@ class BearingEntry(Placed):
     clearance: float = positive(0.1, "m; did you give mm?")
     viscosity: float = Field(gt=1e-5, le=1.0, allow_inf_nan=False, description="Pa s; did you give mPa s?")
     ambient_pressure: float = within(0.0, 1e8, "Pa", 0.0)
-    roughness: float = positive(1e-4, "m; did you give um?", 3e-6)
-    contact_modulus: float = within(0.0, 1e13, _PRESSURE, 1e9)
-    friction: float = Field(0.1, ge=0.0, le=2.0)
+    roughness: float = positive(1e-4, "m; did you give um?", port.default_of("roughness"))
+    contact_modulus: float = within(0.0, 1e13, _PRESSURE, port.default_of("contact_modulus"))
+    friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
     load: float | None = positive(1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)

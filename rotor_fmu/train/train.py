@@ -14,6 +14,8 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from fmus import port
+
 
 @dataclass(frozen=True)
 class Material:
@@ -143,9 +145,9 @@ class BearingSeat:
     clearance: float
     viscosity: float
     ambient_pressure: float = 0.0
-    roughness: float = 3e-6
-    contact_modulus: float = 1e9
-    friction: float = 0.1
+    roughness: float = port.default_of("roughness")
+    contact_modulus: float = port.default_of("contact_modulus")
+    friction: float = port.default_of("friction")
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0

@@ -13,6 +13,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from fmus import port
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 
 ROTORS = ("HP", "LP1", "LP2", "LP3", "GEN", "EXC")
@@ -62,9 +63,9 @@ class TurbineDesign:
     exciter: JournalDesign = JournalDesign(0.45, 0.60, 2.5e-3)
     viscosity: float = 0.02415
     ambient_pressure: float = 0.0
-    roughness: float = 3e-6
-    contact_modulus: float = 1e9
-    friction: float = 0.1
+    roughness: float = port.default_of("roughness")
+    contact_modulus: float = port.default_of("contact_modulus")
+    friction: float = port.default_of("friction")
     hp_balance: float = 0.3
     lp_balance: float = 0.95
     generator_balance: float = 10.2

@@ -23,7 +23,7 @@ for row in rows:
     reach, angle = 3e-4 * draw.uniform(0.05, 0.98), draw.uniform(0.0, 2.0 * np.pi)
     inputs[:2] = reach * np.cos(angle), reach * np.sin(angle)
     inputs[2:4], inputs[4:6], inputs[16] = 1e-5 * draw.normal(size=2), 0.01 * draw.normal(size=2), 314.0
-    film.evaluate(inputs, np.zeros(4), row)
+    film.solve(inputs, np.zeros(4), row)
 np.save(sys.argv[2], rows)
 """
 

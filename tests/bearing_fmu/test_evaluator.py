@@ -10,13 +10,14 @@ import pytest
 from numba.core.runtime import _nrt_python as nrt
 from numba.core.runtime import rtsys
 
+from bearing_fmu import depths
 from bearing_fmu.film import FilmFailure, FilmStatus, make_film
 from bearing_fmu.parameters import BearingParameters
 from fmus import port
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond
 from tests.faults import fault
 
-DEPTHS = ["v1", "v2", "v3"]
+DEPTHS = depths.names()
 
 
 def port_inputs(q=(0.2, -0.7, 0.05, 0.1), v=(0.01, 0.02, 0.0, 0.03), parameters=TURBINE):
@@ -57,10 +58,10 @@ def test_not_finite(depth, bad):
     for index in range(17):
         inputs, out = port_inputs(), np.full(52, 7.0)
         inputs[index] = bad
-        assert film.evaluate(inputs, np.zeros(4), out) == FilmStatus.NOT_FINITE
+        assert film.solve(inputs, np.zeros(4), out) == FilmStatus.NOT_FINITE
         assert np.all(out == 7.0)
     offset = np.array([0.0, bad, 0.0, 0.0])
-    assert film.evaluate(port_inputs(), offset, out) == FilmStatus.NOT_FINITE
+    assert film.solve(port_inputs(), offset, out) == FilmStatus.NOT_FINITE
 
 
 @fault(
@@ -73,15 +74,15 @@ def test_not_finite(depth, bad):
 @pytest.mark.parametrize("q", [(0.0, -1.3, 0.0, 0.0), (30.0, 0.0, 0.0, 0.0), (1e300, 0.0, 0.0, 0.0)])
 def test_too_deep(depth, q):
     film, out = make_film(depth, TURBINE), np.full(52, 7.0)
-    assert film.evaluate(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
+    assert film.solve(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
     assert np.all(out == 7.0)
 
 
 def test_too_deep_at_one_edge():
     out = np.full(52, 7.0)
     q = (0.0, -0.5, 0.8, 0.0)
-    assert make_film("v1", TURBINE).evaluate(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
-    assert make_film("v2", TURBINE).evaluate(port_inputs(q), np.zeros(4), out) == FilmStatus.OK
+    assert make_film("v1", TURBINE).solve(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
+    assert make_film("v2", TURBINE).solve(port_inputs(q), np.zeros(4), out) == FilmStatus.OK
 
 
 @fault(
@@ -110,7 +111,7 @@ def test_overflow_is_no_solution(depth):
     film, out = make_film(depth, TURBINE), np.full(52, 7.0)
     inputs = port_inputs()
     inputs[16] = 1e306
-    assert film.evaluate(inputs, np.zeros(4), out) == FilmStatus.NO_SOLUTION
+    assert film.solve(inputs, np.zeros(4), out) == FilmStatus.NO_SOLUTION
     assert np.all(out == 7.0)
 
 
@@ -125,7 +126,7 @@ def test_extreme_states_are_finite(depth, q):
     for speed in (0.0, SPEED, -SPEED, 1e-9):
         inputs = port_inputs(q)
         inputs[16] = speed
-        if film.evaluate(inputs, np.zeros(4), out) == FilmStatus.OK:
+        if film.solve(inputs, np.zeros(4), out) == FilmStatus.OK:
             assert np.all(np.isfinite(out))
         else:
             assert q[1] == -1.19
@@ -137,15 +138,15 @@ def test_same_input_same_bits(depth):
     first, second = make_film(depth, TURBINE), make_film(depth, TURBINE)
     inputs, offset = port_inputs(), np.zeros(4)
     expected, out = np.empty(52), np.empty(52)
-    assert first.evaluate(inputs, offset, expected) == 0
+    assert first.solve(inputs, offset, expected) == 0
     rng = np.random.default_rng(5)
     for _ in range(20):
         q = rng.uniform(-0.8, 0.8, 4) * [1, 1, 0.4, 0.4]
-        first.evaluate(port_inputs(q, rng.normal(size=4)), offset, out)
-        first.evaluate(port_inputs((0, 5, 0, 0)), offset, out)
-        assert first.evaluate(inputs, offset, out) == 0
+        first.solve(port_inputs(q, rng.normal(size=4)), offset, out)
+        first.solve(port_inputs((0, 5, 0, 0)), offset, out)
+        assert first.solve(inputs, offset, out) == 0
         assert out.tobytes() == expected.tobytes()
-    assert second.evaluate(inputs, offset, out) == 0
+    assert second.solve(inputs, offset, out) == 0
     assert out.tobytes() == expected.tobytes()
 
 
@@ -156,7 +157,7 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
     others.append(make_film("v1", replace(TURBINE, boundary="reynolds")))
     inputs, offset = port_inputs(), np.zeros(4)
     expected, out = np.empty(52), np.empty(52)
-    assert film.evaluate(inputs, offset, expected) == 0
+    assert film.solve(inputs, offset, expected) == 0
     space, _ = film.take()
     film.bring_back(space)
     for other in others:
@@ -165,8 +166,8 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
         work.held[:, 3] = 2.0
         other.bring_back(taken)
         for q in ((0.1, -0.7, 0.1, 0.05), (0, 5, 0, 0), (np.nan, 0, 0, 0)):
-            other.evaluate(port_inputs(q), offset, out)
-        assert film.evaluate(inputs, offset, out) == 0
+            other.solve(port_inputs(q), offset, out)
+        assert film.solve(inputs, offset, out) == 0
         assert out.tobytes() == expected.tobytes()
 
 
@@ -185,7 +186,7 @@ def test_a_film_is_prepared_once_for_threads_that_come_and_go(depth):
     """As those of a tool written in C are to Python, at every call."""
     film, inputs, outputs = make_film(depth, TURBINE), port_inputs(), np.empty((20, 52))
     for out in outputs:
-        thread = Thread(target=film.evaluate, args=(inputs, np.zeros(4), out))
+        thread = Thread(target=film.solve, args=(inputs, np.zeros(4), out))
         thread.start()
         thread.join()
     assert len(film._bound) == 1
@@ -203,11 +204,11 @@ def test_same_bits_with_reynolds_condition():
 def test_no_allocation(depth):
     film, inputs = make_film(depth, TURBINE), port_inputs((0.2, -0.9, 0.09, 0.02))
     offset, out = np.zeros(4), np.empty(52)
-    film.evaluate(inputs, offset, out)
+    film.solve(inputs, offset, out)
     nrt.memsys_enable_stats()
     before = rtsys.get_allocation_stats().alloc
     for _ in range(50):
-        film.evaluate(inputs, offset, out)
+        film.solve(inputs, offset, out)
     allocated = rtsys.get_allocation_stats().alloc - before
     nrt.memsys_disable_stats()
     # numba wraps each array that enters from Python in one small header; nothing else may be allocated.
@@ -252,7 +253,7 @@ def test_bad_parameters_are_named(key, value, allowed):
 
 
 def test_kernels_are_renewed_by_any_module_of_the_package():
-    from bearing_fmu import evaluate
+    from bearing_fmu.films.tilted.depth import SOLVER
     from bearing_fmu.kernels import compiled
 
-    assert evaluate.evaluate_v1._cache._cache_file._source_stamp == compiled._digest()
+    assert SOLVER.kernel._cache._cache_file._source_stamp == compiled._digest()

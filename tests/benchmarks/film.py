@@ -27,13 +27,13 @@ def microseconds(film: Film, q: tuple[float, ...], rounds: int, calls: int = 100
     inputs[:4] = np.asarray(q) * lever(film.parameters)
     inputs[4:8] = 0.02 * SPEED * lever(film.parameters)
     inputs[16] = SPEED
-    if film.evaluate(inputs, offset, out) != 0:
+    if film.solve(inputs, offset, out) != 0:
         raise RuntimeError("the benchmark's state has no response")
     times = []
     for _ in range(rounds):
         start = time.thread_time()
         for _ in range(calls):
-            film.evaluate(inputs, offset, out)
+            film.solve(inputs, offset, out)
         times.append((time.thread_time() - start) / calls * 1e6)
     return float(np.median(times)), min(times)
 

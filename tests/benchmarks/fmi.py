@@ -14,10 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
+from bearing_fmu.recipe import bearing_recipe
 from fmus import port
-from fmus.build.builder import bearing_recipe, rotor_recipe, write
+from fmus.build.builder import write
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import Block, Unit
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import load_train
 
 H = 1e-4

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from bearing_fmu.film import make_film
+from bearing_fmu.recipe import bearing_recipe
 from fmus import port
-from fmus.build.builder import bearing_recipe, write
+from fmus.build.builder import write
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Graph

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.build.builder import build
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import Start, find_start
 from orchestrator.results.result import Result

@@ -44,7 +44,7 @@ def films() -> dict[int, float]:
     def work(film: Film) -> None:
         out, offset = np.zeros(52), np.zeros(4)
         for _ in range(EVALUATIONS):
-            film.evaluate(inputs, offset, out)
+            film.solve(inputs, offset, out)
 
     with ThreadPoolExecutor(2) as pool:
         return alternating({1: lambda: [work(film) for film in pair], 2: lambda: list(pool.map(work, pair))})

@@ -5,24 +5,21 @@ import math
 import numpy as np
 import pytest
 
+from bearing_fmu import depths
 from bearing_fmu.film import make_film
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.recipe import bearing_recipe
 from fmus import port
-from fmus.build.builder import DEPTHS, bearing_recipe
 from fmus.unit.failure import FILM_FAILED
 from tests.faults import fault
 
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
 INPUTS = [v.name for v in port.BEARING_INPUTS]
 START = {v.name: v.start for v in port.BEARING}
-PARAMETERS = BearingParameters(
-    *(START[v.name] for v in port.BEARING_PARAMETERS if not v.name.startswith(("offset", "film"))),
-    START["film.columns"],
-    START["film.rows"],
-)
+PARAMETERS = BearingParameters.of(START)
 
 
-@pytest.fixture(params=DEPTHS)
+@pytest.fixture(params=depths.names())
 def depth(request):
     return request.param
 
@@ -50,7 +47,7 @@ def test_steps_give_the_numbers_of_the_film(bearing, depth):
     for k, inputs in enumerate(states(10)):
         bearing.set(dict(zip(INPUTS, inputs, strict=True)))
         assert bearing.step(k * 1e-4, 1e-4), bearing.said
-        assert film.evaluate(inputs, offset, expected) == 0
+        assert film.solve(inputs, offset, expected) == 0
         assert bearing.get(*OUTPUTS) == expected.tolist()
 
 
@@ -86,7 +83,7 @@ def test_a_bad_parameter_is_a_discard_with_the_reason(bearing, name, value):
     "film",
     "a journal far outside its bore",
     "fmi2Discard; `film failed`, eccentricity ratio, tilts, least gap, advice; outputs as before",
-    guard="bearing_fmu.facade:BearingSlave.start",
+    guard="bearing_fmu.film:Film.evaluate",
 )
 def test_a_journal_far_outside_is_a_discard_with_advice_and_the_state(bearing):
     bearing.start()
@@ -120,9 +117,9 @@ def test_a_state_repeats_a_step_to_the_bit(bearing):
 
 
 def test_units_of_all_depths_share_their_sources():
-    sources = [bearing_recipe(depth).sources for depth in DEPTHS]
+    sources = [bearing_recipe(depth).sources for depth in depths.names()]
     assert sources[0] == sources[1] == sources[2]
-    assert len({bearing_recipe(depth).guid for depth in DEPTHS}) == len(DEPTHS)
+    assert len({bearing_recipe(depth).guid for depth in depths.names()}) == len(depths.names())
 
 
 def test_an_unknown_depth_is_refused():

@@ -7,9 +7,11 @@ import zipfile
 import pytest
 from fmpy.validation import validate_fmu
 
+from bearing_fmu.recipe import bearing_recipe
 from fmus.build import builder as build
 from fmus.build.archive import guid_in, write_archive
 from fmus.build.sources import source_files
+from rotor_fmu.recipe import rotor_recipe
 from tests.fmus.conftest import spring_recipe
 
 BUILT = ("rotor_small.fmu", "bearing_v1.fmu", "bearing_v2.fmu", "bearing_v3.fmu")
@@ -42,16 +44,16 @@ def test_two_builds_are_the_same_to_the_byte(spring_fmu, tmp_path):
 
 
 def test_two_builds_of_a_rotor_are_the_same_to_the_byte(built, small_train, tmp_path):
-    (again,) = build.build(tmp_path, [small_train], depths=())
+    (again,) = build.build(tmp_path, [rotor_recipe(small_train)])
     assert again.read_bytes() == built["rotor_small.fmu"].read_bytes()
 
 
 def test_refresh_builds_what_is_missing_or_stale_only(built, tmp_path):
-    names = [path.name for path in build.refresh(tmp_path, depths=("v1", "v3"))]
+    names = [path.name for path in build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3")))]
     assert names == ["bearing_v1.fmu", "bearing_v3.fmu"]
     (tmp_path / "bearing_v3.fmu").write_bytes(b"damaged")
-    assert build.refresh(tmp_path, depths=("v1", "v3")) == [tmp_path / "bearing_v3.fmu"]
-    assert build.refresh(tmp_path, depths=("v1", "v3")) == []
+    assert build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3"))) == [tmp_path / "bearing_v3.fmu"]
+    assert build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3"))) == []
 
 
 def test_a_date_appears_if_it_is_prescribed(tmp_path, monkeypatch):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fmus import port
-from fmus.build.builder import rotor_recipe
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.start_values import default_starts
 from rotor_fmu.vibration.rotor import Rotor
 

@@ -5,8 +5,8 @@ from itertools import product
 
 import pytest
 
+from bearing_fmu import depths
 from fmus import port
-from fmus.build.builder import DEPTHS
 from tests.fmus.host import Host
 
 H = 1e-4
@@ -35,7 +35,7 @@ def seat_values(seat):
     }
 
 
-@pytest.mark.parametrize("depths", list(product(DEPTHS, repeat=2))[::2])
+@pytest.mark.parametrize("depths", list(product(depths.names(), repeat=2))[::2])
 def test_a_coupled_train_of_any_depths_runs(hosts, small_train, depths):
     rotor = hosts["rotor_small.fmu"].open("rotor").start()
     bearings = {}

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fmus.build.builder import build
+from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 

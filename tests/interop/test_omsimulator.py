@@ -12,13 +12,13 @@ from zipfile import ZipFile
 
 import pytest
 
+from bearing_fmu import depths
 from fmus import port
-from fmus.build.builder import DEPTHS
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.writer import DEFINITION
 from tests.fmus.host import Host
 
-UNITS = ("rotor_small.fmu", *(f"bearing_{depth}.fmu" for depth in DEPTHS))
+UNITS = ("rotor_small.fmu", *(f"bearing_{depth}.fmu" for depth in depths.names()))
 
 
 def test_the_system_names_its_master_and_step(exported):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fmus.build.archive import write_archive
-from fmus.build.builder import build
 from orchestrator.case.case import ssp_case
 from orchestrator.case.simulate import execute
+from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 from orchestrator.ssp.structure import Component, Structure
@@ -99,7 +99,7 @@ def test_turbine_train(event, step, late, turbine_fmus, tmp_path, record_propert
 @pytest.fixture(scope="module")
 def turbine_fmus(tmp_path_factory):
     folder = tmp_path_factory.mktemp("turbine")
-    build(folder, [train_of(load_scenario("paper"))], depths=("v1",))
+    build(folder, [train_of(load_scenario("paper"))], names=("v1",))
     return folder
 
 

@@ -130,7 +130,7 @@ class Holistic:
             return self._responses
         self._inputs[:, JOURNAL] = self._rest + (self._output @ x).reshape(-1, 8)
         for k, film in enumerate(self.films):
-            if film.evaluate(self._inputs[k], self.offsets[k], self._responses[k]):
+            if film.solve(self._inputs[k], self.offsets[k], self._responses[k]):
                 self._responses[k] = np.nan
         self.evaluations += len(self.films)
         self._at[:] = x

@@ -56,7 +56,7 @@ class Coupled:
     def evaluate(self):
         self.inputs[:, :8] = self.rotor.kinematics()
         for inputs, offset, out, film in zip(self.inputs, self.offsets, self.out, self.films, strict=True):
-            assert film.evaluate(inputs, offset, out) == 0
+            assert film.solve(inputs, offset, out) == 0
 
     @property
     def law(self):
@@ -77,7 +77,7 @@ class Coupled:
             for inputs, offset, out, film in zip(
                 self.inputs, self.offsets, self.out, self.films, strict=True
             ):
-                assert film.evaluate(inputs, offset, out) == 0
+                assert film.solve(inputs, offset, out) == 0
             before = self.inputs[:, :4].copy()
             self.rotor.start_from_law(*self.law, orbit=False)
             step = self.rotor.kinematics()[:, :4] - before

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from fmus.build.builder import build
 from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
 
@@ -51,7 +51,7 @@ def store():
 def small_fmus(tmp_path_factory):
     """FMUs of the small train with short bearings."""
     folder = tmp_path_factory.mktemp("small")
-    build(folder, [train_of(load_scenario("small"))], depths=("v3",))
+    build(folder, [train_of(load_scenario("small"))], names=("v3",))
     return folder
 
 

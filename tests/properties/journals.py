@@ -8,10 +8,11 @@ from functools import lru_cache
 import numpy as np
 from hypothesis import strategies as st
 
+from bearing_fmu import depths
 from bearing_fmu.film import Film, make_film
 from bearing_fmu.parameters import BearingParameters
 
-DEPTHS = st.sampled_from(["v1", "v2", "v3"])
+DEPTHS = st.sampled_from(depths.names())
 _RESOLUTIONS = st.sampled_from([(48, 8), (32, 6), (17, 3), (64, 10)])
 
 

@@ -22,7 +22,7 @@ def test_any_input_gives_finite_outputs_or_a_named_status(depth, parameters, num
     with np.errstate(over="ignore", invalid="ignore"):
         numbers = np.array(numbers) * np.append(units, 100.0)
     inputs, offset, out = np.append(numbers[:16], numbers[20]), numbers[16:20], np.full(52, 7.0)
-    status = FilmStatus(film(depth, parameters).evaluate(inputs, offset, out))
+    status = FilmStatus(film(depth, parameters).solve(inputs, offset, out))
     event(f"{depth} {status.name}")
     finite = bool(np.all(np.isfinite(numbers)))
     assert finite == (status is not FilmStatus.NOT_FINITE)
@@ -44,7 +44,7 @@ def test_outputs_belong_together(depth, parameters, q, v, speed):
     bearing = film(depth, parameters)
     q, v = q * units, v * units * abs(speed)
     inputs, out = np.concatenate((q, v, np.zeros(8), [speed])), np.full(52, 7.0)
-    status = FilmStatus(bearing.evaluate(inputs, np.zeros(4), out))
+    status = FilmStatus(bearing.solve(inputs, np.zeros(4), out))
     ends = (-0.5, 0.0, 0.5) if depth == "v1" else (0.0,)
     at = np.array(ends) * parameters.width
     gaps = parameters.clearance - np.hypot(q[0] + q[3] * at, q[1] - q[2] * at)

@@ -10,12 +10,12 @@ import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
-from fmus.build.builder import build
 from orchestrator.case.case import ssp_case
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import FmuError, OrchestratorError, ScenarioError
 from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import build
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError
 from orchestrator.scenario.file import load_scenario, train_of

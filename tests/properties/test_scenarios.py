@@ -5,12 +5,13 @@ import pytest
 from hypothesis import assume, event, given, settings
 from hypothesis import strategies as st
 
-from fmus.build.builder import build
+from bearing_fmu import depths
 from orchestrator.case.simulate import simulate
 from orchestrator.errors import OrchestratorError, ScenarioError
+from orchestrator.fmi.folder import build
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, parse_scenario, scenario_toml, train_of
-from orchestrator.scenario.scenario import COUPLINGS, DEPTHS, REDUCTIONS, Scenario
+from orchestrator.scenario.scenario import COUPLINGS, REDUCTIONS, Scenario
 from tests.faults import fault
 from tests.properties.journals import logarithmic
 
@@ -29,8 +30,8 @@ def settings_of_small(draw, longest: float = 2.0) -> dict:
         "title": draw(TITLES),
         "train": "small",
         "reduction": draw(st.sampled_from(REDUCTIONS)),
-        "depth": draw(st.sampled_from(DEPTHS)),
-        "depth_at": draw(st.dictionaries(st.sampled_from(BEARINGS), st.sampled_from(DEPTHS))),
+        "depth": draw(st.sampled_from(depths.names())),
+        "depth_at": draw(st.dictionaries(st.sampled_from(BEARINGS), st.sampled_from(depths.names()))),
         "unbalance": {
             "at": draw(
                 st.dictionaries(

@@ -16,16 +16,25 @@ from scipy.linalg import eigh
 
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.films.tilted.reynolds import summit
-from bearing_fmu.films.tilted.workspace import DAMPING, PEAK, SHEAR, STIFFNESS
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade, place
 from bearing_fmu.kernels.guembel import bearing_part
+from bearing_fmu.result import (
+    CONDUCTANCE,
+    DAMPING,
+    FIELDS,
+    GAP,
+    OPEN,
+    OPEN_1,
+    OPEN_2,
+    PEAK,
+    SHEAR,
+    SQUEEZE,
+    STIFFNESS,
+)
 
 Floats = NDArray[np.float64]
-
-# Fields on a ring of columns or faces.
-GAP, OPEN, OPEN_1, OPEN_2, CONDUCTANCE, SQUEEZE, ABSOLUTE, FIELDS = range(8)
 
 
 class AlignedFilm(NamedTuple):

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gap
 from bearing_fmu.films.short.flooded import SMALL, flooded
-from bearing_fmu.films.tilted.workspace import DAMPING, PEAK, SHEAR, STIFFNESS
 from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS
 
 Floats = NDArray[np.float64]
 

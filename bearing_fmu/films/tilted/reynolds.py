@@ -20,23 +20,13 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
-from bearing_fmu.films.tilted.workspace import (
-    ABSOLUTE,
-    CONDUCTANCE,
-    GAP,
-    OPEN,
-    OPEN_1,
-    OPEN_2,
-    PEAK,
-    SHEAR,
-    SQUEEZE,
-    TiltedFilm,
-)
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.cyclic_solver import factorise, substitute
 from bearing_fmu.kernels.grid import COS, METRIC, SIN, grade, place
 from bearing_fmu.kernels.guembel import bearing_part
 from bearing_fmu.kernels.vector import LANES, add_rows
+from bearing_fmu.result import ABSOLUTE, CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, PEAK, SHEAR, SQUEEZE
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]

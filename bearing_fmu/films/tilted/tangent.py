@@ -14,19 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.films.tilted.reynolds import unfold
-from bearing_fmu.films.tilted.workspace import (
-    CONDUCTANCE,
-    DAMPING,
-    OPEN,
-    OPEN_1,
-    OPEN_2,
-    SQUEEZE,
-    STIFFNESS,
-    TiltedFilm,
-)
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.cyclic_solver import substitute
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
+from bearing_fmu.result import CONDUCTANCE, DAMPING, OPEN, OPEN_1, OPEN_2, SQUEEZE, STIFFNESS
 
 Floats = NDArray[np.float64]
 

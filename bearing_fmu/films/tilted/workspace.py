@@ -14,16 +14,10 @@ from numpy.typing import NDArray
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.kernels.vector import padded
+from bearing_fmu.result import FIELDS
+from bearing_fmu.stock import Stock
 
 Floats = NDArray[np.float64]
-
-# Fields at the nodes of the columns and of the faces: gap, gap open to the oil with two
-# derivatives, conductance; then at the columns the squeeze flow and the pressure over the cavity.
-GAP, OPEN, OPEN_1, OPEN_2, CONDUCTANCE, SQUEEZE, ABSOLUTE, FIELDS = range(8)
-
-# The result of a film, dimensionless: wrench, dF/dq and dF/dv row by row, largest pressure,
-# integral of 1/T over the film.
-WRENCH, STIFFNESS, DAMPING, PEAK, SHEAR, RESULTS = 0, 4, 20, 36, 37, 38
 
 
 class TiltedFilm(NamedTuple):
@@ -56,46 +50,30 @@ class TiltedFilm(NamedTuple):
     row: Floats  #: (8 n',) work space
 
 
-class WorkSpace:
-    """What one evaluation at a time may use."""
-
-    def __init__(self, arrays: dict[str, Floats] | None = None) -> None:
-        self.arrays = arrays or {}
-
-
-_stocks: dict[tuple[int, int], list[WorkSpace]] = {}
-
-
-def stock(columns: int, rows: int) -> list[WorkSpace]:
-    """Work spaces of `columns` x `rows` that nobody uses, the last one used last.
-
-    Take one by ``pop`` and bring it back by ``append``, which no other thread interrupts.
-    """
-    return _stocks.setdefault((columns, rows), [])
-
-
-def work_space(columns: int, rows: int) -> WorkSpace:
-    """A new work space."""
+def work_space(columns: int, rows: int) -> dict[str, Floats]:
+    """The arrays of a new work space."""
     width, length = padded(rows), padded(columns)
-    return WorkSpace(
-        {
-            "rings": np.zeros((2, RING_ROWS, columns)),
-            "grading": np.zeros((6, 4)),
-            "column": np.zeros((FIELDS, rows + 2, length)),
-            "face": np.zeros((FIELDS, rows, length)),
-            "nodal": np.zeros((4, rows, length)),
-            "pressures": np.zeros((5, 3 * rows + 2, length)),
-            "forcing": np.zeros((6, 3 * rows + 2, length)),
-            "blocks": np.zeros((3, columns * rows * width)),
-            "coupling": np.zeros(columns * width),
-            "sides": np.zeros(4 * columns * width),
-            "block": np.zeros(rows * width),
-            "row": np.zeros(8 * width),
-        }
-    )
+    return {
+        "rings": np.zeros((2, RING_ROWS, columns)),
+        "grading": np.zeros((6, 4)),
+        "column": np.zeros((FIELDS, rows + 2, length)),
+        "face": np.zeros((FIELDS, rows, length)),
+        "nodal": np.zeros((4, rows, length)),
+        "pressures": np.zeros((5, 3 * rows + 2, length)),
+        "forcing": np.zeros((6, 3 * rows + 2, length)),
+        "blocks": np.zeros((3, columns * rows * width)),
+        "coupling": np.zeros(columns * width),
+        "sides": np.zeros(4 * columns * width),
+        "block": np.zeros(rows * width),
+        "row": np.zeros(8 * width),
+    }
 
 
-def tilted_film(columns: int, rows: int, aspect: float, space: WorkSpace) -> TiltedFilm:
+STOCK = Stock(work_space)
+"""Of the tilted films of this process."""
+
+
+def tilted_film(columns: int, rows: int, aspect: float, space: dict[str, Floats]) -> TiltedFilm:
     """Prepare a film of `columns` x `rows` with 2R/b = `aspect` in a work space."""
     basis = axial_basis(rows)
     width = padded(rows)
@@ -112,5 +90,5 @@ def tilted_film(columns: int, rows: int, aspect: float, space: WorkSpace) -> Til
         fine=basis.interpolation(basis.place(np.linspace(-1.0, 1.0, 4 * rows + 2)[1:-1])),
         circle=circle,
         held=np.zeros((rows, padded(columns))),
-        **space.arrays,
+        **space,
     )

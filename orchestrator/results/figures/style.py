@@ -7,23 +7,22 @@ and in grey print.  Figures show MN, kN m, um, mm and N/mm² of what the record 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 from matplotlib import colormaps
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
+from bearing_fmu import depths
+
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-DEPTH_COLOURS = {"v1": "#D55E00", "v2": "#0072B2", "v3": "#009E73"}
+_FREE = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+"""For depths that bring no colour of their own, in turn."""
 OTHER_COLOUR = "#7B4F9E"
-DEPTH_NAMES = {
-    "v1": "V1: Reynolds with misalignment",
-    "v2": "V2: Reynolds, aligned",
-    "v3": "V3: short bearing",
-}
 CENTRE_LINE = "#4D4D4D"
 EVENT = "#000000"
 MEAN = "#000000"
@@ -60,7 +59,10 @@ def depth_at(record: xr.Dataset, bearing: str | None = None) -> str:
 
 def colour_of(depth: str) -> str:
     """The colour of a modelling depth, the same in every figure."""
-    return DEPTH_COLOURS.get(depth, OTHER_COLOUR)
+    known = depths.depths()
+    own = {each.colour for each in known}
+    free = cycle(colour for colour in _FREE if colour not in own)
+    return {each.name: each.colour or next(free) for each in known}.get(depth, OTHER_COLOUR)
 
 
 def reduction_look(name: str) -> tuple[str, str, float]:
@@ -84,7 +86,8 @@ def along_the_shaft(count: int) -> list[tuple[float, ...]]:
 
 def depth_name(depth: str) -> str:
     """Depth and what it stands for."""
-    return DEPTH_NAMES.get(depth, depth)
+    titles = {each.name: each.title for each in depths.depths()}
+    return f"{depth.upper()}: {titles[depth]}" if depth in titles else depth
 
 
 def run_name(record: xr.Dataset, bearing: str | None = None) -> str:

@@ -88,7 +88,7 @@ def test_moving_housing_and_offset(depth):
     inputs[:4] = Q * units + inputs[8:12] + offset
     inputs[4:8] = V * units * SPEED + inputs[12:16]
     inputs[16] = SPEED
-    assert film.evaluate(inputs, offset, out) == 0
+    assert film.solve(inputs, offset, out) == 0
     expected = respond(film, Q, V, SPEED)
     np.testing.assert_allclose(out[:4], expected.wrench, rtol=1e-9, atol=1e-6)
     stiffness, damping = out[8:24].reshape(4, 4), out[24:40].reshape(4, 4)

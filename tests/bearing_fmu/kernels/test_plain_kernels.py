@@ -77,7 +77,7 @@ def test_compiled_kernels_are_the_python_they_are_written_in(case, plain_results
     settings, q, v = STATES[state]
     parameters = plain(0.7, **settings)
     out = np.full(52, np.nan)
-    status = make_film(depth, parameters).evaluate(port_inputs(parameters, q, v), np.zeros(4), out)
+    status = make_film(depth, parameters).solve(port_inputs(parameters, q, v), np.zeros(4), out)
     expected = plain_results[case]
     assert status == expected[0]
     groups = ("wrench", 0, 4), ("F0", 4, 8), ("K", 8, 24), ("C", 24, 40), ("contact", 45, 49)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from bearing_fmu import depths
 from orchestrator.case import prepare
 from orchestrator.case.request import RunRequest
 from orchestrator.cli import options as cli
@@ -92,7 +93,7 @@ def test_help_is_quick_because_nothing_heavy_is_imported():
 
 
 def test_choices_are_those_of_the_scenario():
-    assert tuple(cli.Depth) == scenario.DEPTHS
+    assert tuple(cli.Depth) == depths.names()
     assert tuple(cli.Coupling) == scenario.COUPLINGS
     assert tuple(cli.Reduction) == scenario.REDUCTIONS
     assert tuple(cli.Format) == FORMATS

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from pythonfmu.builder import FmuBuilder
 
-from fmus.build.builder import build
 from orchestrator.case.case import ssp_case
 from orchestrator.case.simulate import execute, simulate
 from orchestrator.errors import PortError, ScenarioError
+from orchestrator.fmi.folder import build
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
@@ -28,7 +28,7 @@ def own(tmp_path_factory):
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))], depths=("v3",))
+    build(folder, [train_of(load_scenario("small"))], names=("v3",))
     return folder
 
 

@@ -7,16 +7,18 @@ from zipfile import ZipFile
 import pytest
 from pythonfmu.builder import FmuBuilder
 
+from bearing_fmu.recipe import bearing_recipe
 from fmus.build.archive import write_archive
-from fmus.build.builder import bearing_recipe, rotor_recipe, write
-from fmus.build.own import is_own
+from fmus.build.builder import write
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.fmi import trust
+from orchestrator.fmi.own import is_own
 from orchestrator.fmi.trust import UntrustedError, require_trust
 from orchestrator.observers import checkpoint
 from orchestrator.outcome import INPUT_ERROR
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.fmi.test_own_bearing import EXAMPLE
@@ -131,7 +133,7 @@ def test_our_own_ssp_runs_without_a_question(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with a file added, such as another library",
     "it counts as foreign: `--trust`",
-    guard="fmus.build.own:_same",
+    guard="orchestrator.fmi.own:_same",
 )
 def test_added_code_is_foreign(small_fmus, tmp_path):
     bearing = small_fmus / "bearing_v3.fmu"
@@ -143,7 +145,7 @@ def test_added_code_is_foreign(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with one byte of its code changed",
     "it counts as foreign: `--trust`",
-    guard="fmus.build.own:_same",
+    guard="orchestrator.fmi.own:_same",
 )
 def test_changed_code_is_foreign(small_fmus, tmp_path):
     names = ZipFile(small_fmus / "rotor_small.fmu").namelist()

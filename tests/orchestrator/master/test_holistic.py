@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from fmus.build.builder import build
 from orchestrator.case.simulate import simulate
 from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.start.equilibrium import find_start

@@ -6,9 +6,11 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 
+from bearing_fmu import depths
 from fmus.build.archive import write_archive
-from fmus.build.builder import build
+from fmus.build.promises import ISOTROPIC
 from orchestrator.case.simulate import simulate
+from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
 from orchestrator.master.coupling import LinearImplicit
 from orchestrator.master.start.equilibrium import apply_start, find_start
@@ -16,7 +18,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 from tests.faults import fault
 
-DEPTHS = ("v1", "v2", "v3")
+DEPTHS = depths.names()
 CALM = {"event": None, "unbalance": {"grade": 0.0}, "end": 0.01}
 
 
@@ -179,7 +181,7 @@ def test_steps_are_taken_back_alike_with_and_without_a_mark_of_the_films(
     without = simulate(small(**changes), fmus)
     assert without.outcome is Outcome.FINISHED
     assert without.counts.rejected > 0 or without.counts.iterations > without.counts.accepted
-    monkeypatch.setattr("orchestrator.fmi.file.is_memoryless", lambda _root: False)
+    monkeypatch.setattr("orchestrator.fmi.file.promises_of", lambda _root: frozenset({ISOTROPIC}))
     marked = simulate(small(**changes), fmus)
     assert marked.counts == without.counts
     assert marked.record.identical(without.record)

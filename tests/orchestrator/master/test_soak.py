@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from fmus.build.builder import build
+from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario, train_of
 from tests.soak import GROWTH, growth, soak
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fmus.build.builder import build
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
+from orchestrator.fmi.folder import build
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome

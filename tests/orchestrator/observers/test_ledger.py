@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fmus.build.builder import build
 from orchestrator.case.simulate import simulate
+from orchestrator.fmi.folder import build
 from orchestrator.master.coupling import LinearImplicit
 from orchestrator.master.stepping import Stepper
 from orchestrator.observers.ledger import Ledger

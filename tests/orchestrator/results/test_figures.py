@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.collections import PolyCollection
 
+from bearing_fmu import depths
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
 from orchestrator.results.figures.deformation import dynamic_deflection, worst_instant
@@ -30,7 +31,7 @@ def train():
 
 @pytest.fixture(scope="module")
 def records():
-    return [synthetic_record.record(depth) for depth in ("v1", "v2", "v3")]
+    return [synthetic_record.record(depth) for depth in depths.names()]
 
 
 @pytest.fixture(scope="module")
@@ -115,13 +116,13 @@ def test_several_runs_share_scales_and_keep_their_colours(records):
     assert len(grid) == 6
     assert len({axes.get_ylim() for axes in grid}) == 1
     for axes, depth in zip(grid[::2], ("v1", "v2", "v3"), strict=True):
-        assert line(axes, style.depth_name(depth)).get_color() == style.DEPTH_COLOURS[depth]
+        assert line(axes, style.depth_name(depth)).get_color() == style.colour_of(depth)
         assert axes.get_title(loc="left").startswith(f"{depth.upper()}: ")
     forces = panel_axes(forces_and_moments(records))
     assert len(forces) == 8
     assert len({axes.get_ylim() for axes in forces[:4]}) == 1
-    near = [line(forces[3], style.depth_name(depth)).get_color() for depth in ("v1", "v2", "v3")]
-    assert near == list(style.DEPTH_COLOURS.values())
+    near = [line(forces[3], style.depth_name(depth)).get_color() for depth in depths.names()]
+    assert near == [style.colour_of(depth) for depth in depths.names()]
 
 
 def test_all_data_are_inside_the_axes(records):
@@ -244,7 +245,7 @@ def test_close_up_follows_the_speed(record):
 def test_mixed_depths_are_named(record):
     mixed = record.copy()
     mixed["depth"] = record["depth"].copy(data=np.where(record["bearing"] == "HP-front", "v3", "v1"))
-    assert style.run_name(mixed, "HP-front") == f"mixed depths, here {style.DEPTH_NAMES['v3']}"
+    assert style.run_name(mixed, "HP-front") == f"mixed depths, here {style.depth_name('v3')}"
     assert style.colour_of(style.depth_at(mixed)) == style.OTHER_COLOUR
 
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from fmus.build.archive import write_archive
-from fmus.build.builder import build
 from orchestrator.case.case import ssp_case
 from orchestrator.case.simulate import Execution, execute, simulate
 from orchestrator.errors import ScenarioError
+from orchestrator.fmi.folder import build
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import Wiring
 from orchestrator.outcome import Outcome

@@ -11,9 +11,10 @@ from zipfile import ZipFile
 
 from defusedxml.ElementTree import fromstring
 
-from fmus.build.builder import bearing_recipe, rotor_recipe
+from bearing_fmu import recipe as bearing
 from fmus.build.recipe import Recipe
 from fmus.port.variable import Value
+from rotor_fmu import recipe as rotor
 from rotor_fmu.train.train import Train
 
 _DESCRIPTION, _TRAIN = "modelDescription.xml", "resources/train.json"
@@ -40,10 +41,10 @@ def _recipe(archive: ZipFile) -> Recipe | None:
     description = fromstring(_read(archive, _DESCRIPTION), forbid_dtd=True)
     name = str(description.get("modelName"))
     make: Callable[[Mapping[str, Value]], Recipe]
-    if match := re.fullmatch(r"bladeloss_bearing_(\w+)", name):
-        make = partial(bearing_recipe, match[1])
-    elif name.startswith("bladeloss_rotor_"):
-        make = partial(rotor_recipe, Train.from_json(_read(archive, _TRAIN).decode()))
+    if match := re.fullmatch(bearing.PREFIX + r"(\w+)", name):
+        make = partial(bearing.bearing_recipe, match[1])
+    elif name.startswith(rotor.PREFIX):
+        make = partial(rotor.rotor_recipe, Train.from_json(_read(archive, _TRAIN).decode()))
     else:
         return None
     texts = {

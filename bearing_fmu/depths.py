@@ -1,0 +1,165 @@
+"""The modelling depths of a bearing: the one place that lists them.
+
+To add a depth, write its film and register a `Depth` for it; units, command line, scenarios, SSPs and
+figures follow.  Nothing but the standard library and the port is imported here, so that listing the
+depths costs nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
+from typing import Any, Protocol
+
+from fmus import port
+from fmus.port.variable import Value, Variable
+
+
+class Film(Protocol):
+    """What a depth evaluates: a film with its parameters."""
+
+    def rest(self) -> Any:
+        """State of the film before the first evaluation, a float64 array; empty for a film without memory."""
+
+    def evaluate(self, state: Any, inputs: Any, dt: float) -> tuple[Any, Any]:
+        """Evaluate the film at the end of a step.
+
+        Nothing is kept: the caller takes the state on when it accepts the step.
+
+        Parameters
+        ----------
+        state : ndarray
+            At the beginning of the step; never changed in place.
+        inputs : ndarray, shape (17,)
+            At its end, in the order of `fmus.port.BEARING_INPUTS`.
+        dt : float
+            Length of the step in s; 0 where the film is to be in balance with the inputs, at the start.
+
+        Returns
+        -------
+        outputs : ndarray, shape (52,)
+            In the order of `fmus.port.BEARING_OUTPUTS`.
+        state : ndarray
+            At the end of the step.
+
+        Raises
+        ------
+        ArithmeticError
+            The film has no answer; says why, at which state, and what helps.
+        """
+
+
+@dataclass(frozen=True)
+class Depth:
+    """A modelling depth.
+
+    Attributes
+    ----------
+    name : str
+        The word for it in scenarios, options and file names.
+    title : str
+        What it is in a few words, for help and figures.
+    text : str
+        One line, the description of its FMU.
+    film : str
+        ``module:function`` that makes a `Film` of the parameters' values by name; importing the module
+        registers the depth.
+    parameters : tuple of Variable
+        With units, start values and ranges. All depths have those of the port; own ones stand behind them.
+    memory : bool
+        Whether outputs depend on earlier inputs; then the film's state belongs to that of the unit.
+    tilts : bool
+        Whether it sees tilts and gives moments.
+    isotropic : bool
+        Whether no direction is unlike another, as in a plain bore: turned inputs give turned outputs.
+    quick : bool
+        Whether an evaluation takes some microseconds only, which threads would but delay.
+    colour : str
+        Of its lines in figures; empty: the next that is free.
+    """
+
+    name: str
+    title: str
+    text: str
+    film: str
+    parameters: tuple[Variable, ...] = port.BEARING_PARAMETERS
+    memory: bool = False
+    tilts: bool = False
+    isotropic: bool = True
+    quick: bool = False
+    colour: str = ""
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """The unit, in the order of its value references."""
+        own = tuple(v.name for v in self.parameters[len(port.BEARING_PARAMETERS) :])
+        outputs = (replace(v, starts_on=(*(v.starts_on or ()), *own)) for v in port.BEARING_OUTPUTS)
+        return (*port.BEARING_INPUTS, *outputs, *self.parameters)
+
+    def make(self, values: Mapping[str, Value]) -> Film:
+        """Make the film of these parameters; ValueError names the one that is out of range."""
+        module, _, function = self.film.partition(":")
+        make: Callable[[Mapping[str, Value]], Film] = getattr(import_module(module), function)
+        return make(values)
+
+
+_DEPTHS: dict[str, Depth] = {}
+
+
+def register(depth: Depth) -> Depth:
+    """Make a depth known to everything that lists depths; ValueError if its name is taken or unfit."""
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", depth.name):
+        raise ValueError(f"bearing depth {depth.name!r}: allowed are small letters, digits and underscores")
+    if depth.parameters[: len(port.BEARING_PARAMETERS)] != port.BEARING_PARAMETERS:
+        raise ValueError(f"bearing depth {depth.name!r}: its parameters must begin with those of the port")
+    if _DEPTHS.setdefault(depth.name, depth) != depth:
+        raise ValueError(f"bearing depth {depth.name!r}: the name is taken")
+    return depth
+
+
+def depths() -> tuple[Depth, ...]:
+    """All depths, the most detailed of bladeloss first."""
+    return tuple(_DEPTHS.values())
+
+
+def names() -> tuple[str, ...]:
+    """Names of all depths."""
+    return tuple(_DEPTHS)
+
+
+def find(name: str) -> Depth:
+    """The depth of this name; ValueError if there is none."""
+    if name not in _DEPTHS:
+        raise ValueError(f"bearing depth {name!r}: allowed are {', '.join(_DEPTHS)}")
+    return _DEPTHS[name]
+
+
+register(
+    Depth(
+        name="v1",
+        title="Reynolds with misalignment",
+        text="Journal bearing: Reynolds equation with misalignment and solid contact.",
+        film="bearing_fmu.films.tilted.depth:make",
+        tilts=True,
+    )
+)
+register(
+    Depth(
+        name="v2",
+        title="Reynolds, aligned",
+        text="Journal bearing: Reynolds equation of the aligned journal, with solid contact.",
+        film="bearing_fmu.films.aligned.depth:make",
+        quick=True,
+    )
+)
+register(
+    Depth(
+        name="v3",
+        title="short bearing",
+        text="Journal bearing: short-bearing formula, with solid contact.",
+        film="bearing_fmu.films.short.depth:make",
+        quick=True,
+    )
+)

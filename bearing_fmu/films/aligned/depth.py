@@ -1,0 +1,40 @@
+"""V2: the film of the aligned journal, as a depth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.contact.contact import add_aligned
+from bearing_fmu.evaluate import port_kernel
+from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.aligned.aligned import AlignedFilm, aligned_film, solve_aligned
+from bearing_fmu.kernels.compiled import stage
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.scales import Scales
+from bearing_fmu.status import NO_SOLUTION, OK
+from fmus.port.variable import Value
+
+Floats = NDArray[np.float64]
+
+
+@stage
+def _solve(film: AlignedFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
+    if not solve_aligned(film, q, v, speed, scales.ambient, scales.sigma, result):
+        return NO_SOLUTION
+    return OK
+
+
+def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFilm:
+    return aligned_film(parameters.columns, parameters.rows, parameters.diameter / parameters.width)
+
+
+SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare)
+
+
+def make(values: Mapping[str, Value]) -> Film:
+    """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
+    return Film.of(SOLVER, values)

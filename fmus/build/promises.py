@@ -1,0 +1,27 @@
+"""What a unit promises beyond FMI 2.0, in the vendor annotations of its description.
+
+``memoryless``: its outputs after a step follow from the inputs at its end alone.  Such a unit needs no
+saved state to take a step back: the next step on other inputs overwrites all.
+
+``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from xml.etree.ElementTree import Element, SubElement
+
+MEMORYLESS, ISOTROPIC = "memoryless", "isotropic"
+_TOOL, _MARK = "bladeloss", "Promises"
+
+
+def annotate(description: Element, promises: Iterable[str]) -> None:
+    """Append the promises to a modelDescription; their place is between DefaultExperiment and variables."""
+    tool = SubElement(SubElement(description, "VendorAnnotations"), "Tool", name=_TOOL)
+    SubElement(tool, _MARK, dict.fromkeys(promises, "true"))  # a tool has one element
+
+
+def promises_of(description: Element) -> frozenset[str]:
+    """The promises in a modelDescription."""
+    mark = description.find(f"VendorAnnotations/Tool[@name='{_TOOL}']/{_MARK}")
+    return frozenset() if mark is None else frozenset(key for key, word in mark.items() if word == "true")

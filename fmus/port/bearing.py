@@ -1,0 +1,142 @@
+"""The port of a bearing: its inputs, its outputs, and the parameters that every depth has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fmus.port.connector import (
+    FORCE,
+    KINEMATIC_TEXT,
+    KINEMATIC_UNITS,
+    NOMINAL_SPEED,
+    POSITION,
+    SPEED,
+    WRENCH_TEXT,
+    WRENCH_UNITS,
+    kinematics,
+    law,
+)
+from fmus.port.variable import Variable
+
+CLEARANCE = 8.62e-4
+JOURNAL_HEIGHT = -0.5 * CLEARANCE  # a bearing on its own starts at half its clearance
+
+BEARING_INPUTS: tuple[Variable, ...] = (
+    *(
+        replace(v, start=JOURNAL_HEIGHT) if v.name == "journal.y" else v
+        for v in kinematics("journal", "journal", "input")
+    ),
+    *kinematics("housing", "housing", "input"),
+    Variable(SPEED, "input", "rad/s", "rotor speed, positive from x to y", NOMINAL_SPEED, nominal=100.0),
+)
+_ON_STATE = tuple(v.name for v in BEARING_INPUTS)
+
+_OFFSET_TEXT = "bearing centre in the fixed frame: "
+
+BEARING_PARAMETERS: tuple[Variable, ...] = (
+    *(
+        Variable(name, "parameter", unit, text, start, minimum=minimum, nominal=nominal, above=above)
+        for name, unit, text, start, minimum, nominal, above in (
+            ("diameter", "m", "journal diameter d", 0.80, 0.0, 1.0, True),
+            ("width", "m", "bearing width b", 0.64, 0.0, 1.0, True),
+            ("clearance", "m", "radial clearance C = psi d/2", CLEARANCE, 0.0, 1e-3, True),
+            ("viscosity", "Pa.s", "dynamic viscosity eta of the oil", 0.0242, 0.0, 1e-2, True),
+            (
+                "ambient_pressure",
+                "Pa",
+                "pressure at the bearing's ends, over the cavity",
+                0.0,
+                0.0,
+                1e5,
+                False,
+            ),
+            (
+                "contact.roughness",
+                "m",
+                "combined roughness sigma of journal and bore",
+                3e-6,
+                0.0,
+                1e-6,
+                False,
+            ),
+            (
+                "contact.modulus",
+                "Pa",
+                "contact factor K'E' of p_c = K'E' F_5/2(h/sigma)",
+                1e9,
+                0.0,
+                1e9,
+                False,
+            ),
+            ("contact.friction", "", "friction coefficient of solid contact", 0.1, 0.0, 0.1, False),
+        )
+    ),
+    *(
+        Variable(f"offset.{name}", "parameter", unit, _OFFSET_TEXT + text, 0.0, nominal=1e-4)
+        for name, unit, text in zip(POSITION, KINEMATIC_UNITS[:4], KINEMATIC_TEXT[:4], strict=True)
+    ),
+    *(
+        Variable(
+            name, "parameter", "", f"film resolution {text}", start, minimum=low, maximum=high, kind="Integer"
+        )
+        for name, text, start, low, high in (
+            ("film.columns", "around the circumference", 48, 16, 512),
+            ("film.rows", "along the axis", 8, 3, 30),
+        )
+    ),
+)
+
+_AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
+
+_OUTPUTS: tuple[Variable, ...] = (
+    *(
+        Variable(name, "output", unit, f"wrench on the rotor: {text}", nominal=1e6, depends_on=_ON_STATE)
+        for name, unit, text in zip(FORCE, WRENCH_UNITS, WRENCH_TEXT, strict=True)
+    ),
+    *law("output", depends_on=_ON_STATE),
+    *(
+        Variable(name, "output", unit, text, minimum=minimum, nominal=nominal, depends_on=_ON_STATE)
+        for name, unit, text, minimum, nominal in (
+            ("h_min", "m", "least gap over the whole film; negative: asperities flattened", None, 1e-4),
+            ("h_min_centre", "m", "least gap on the centre line of the bearing", None, 1e-4),
+            ("h_min_z", "m", "axial position of the least gap, from the mid-plane", None, 1e-1),
+            ("p_max", "Pa", "largest film pressure", 0.0, 1e7),
+            ("contact_force", "N", "integral of the solid contact pressure", 0.0, 1e6),
+            ("contact.Fx", "N", "part of the wrench from solid contact: force in x", None, 1e6),
+            ("contact.Fy", "N", "part of the wrench from solid contact: force in y", None, 1e6),
+            ("contact.Mx", "N.m", "part of the wrench from solid contact: moment about x", None, 1e6),
+            ("contact.My", "N.m", "part of the wrench from solid contact: moment about y", None, 1e6),
+            ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
+            ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
+            ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
+        )
+    ),
+)
+BEARING_OUTPUTS = tuple(replace(v, starts_on=_AT_START) for v in _OUTPUTS)
+
+BEARING_KEYS: dict[str, str] = {
+    "diameter": "diameter",
+    "width": "width",
+    "clearance": "clearance",
+    "viscosity": "viscosity",
+    "ambient_pressure": "ambient_pressure",
+    "roughness": "contact.roughness",
+    "contact_modulus": "contact.modulus",
+    "friction": "contact.friction",
+    "columns": "film.columns",
+    "rows": "film.rows",
+}
+"""Parameters of a bearing by the words that trains, scenarios and films have for them."""
+
+BEARING: tuple[Variable, ...] = BEARING_INPUTS + BEARING_OUTPUTS + BEARING_PARAMETERS
+"""The unit of a bearing, in the order of its value references; a depth may have more behind them."""
+
+
+def bearing_parameter(key: str) -> Variable:
+    """The parameter of a bearing of this word, see `BEARING_KEYS`."""
+    return next(v for v in BEARING_PARAMETERS if v.name == BEARING_KEYS[key])
+
+
+def default_of(key: str) -> float:
+    """Start value of a bearing's number of this word."""
+    return float(bearing_parameter(key).start or 0.0)

@@ -1,0 +1,108 @@
+"""A depth that one file adds is everywhere: FMU, scenario, command line, figures, a run.
+
+Each test runs in a process of its own, so that no other test knows of the depth.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+_PREFIX = "import sys; import tests.linear_film as added; "
+
+
+def in_a_process(code: str, *arguments: str, folder: Path) -> str:
+    """What code says that knows the added depth."""
+    done = subprocess.run(
+        [sys.executable, "-c", _PREFIX + code, *arguments],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env={"PYTHONPATH": str(ROOT), "PATH": "", "XDG_CACHE_HOME": str(folder), "COLUMNS": "120"},
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+MAIN = "from orchestrator.cli.main import main; main()"
+
+
+def test_the_command_line_lists_it(tmp_path):
+    for command in ("run", "modes"):
+        assert "v1|v2|v3|linear" in in_a_process(MAIN, command, "--help", folder=tmp_path)
+    assert "linear spring and damper" in " ".join(
+        in_a_process(MAIN, "run", "--help", folder=tmp_path).replace("│", " ").split()
+    )
+
+
+def test_scenarios_take_it_and_name_it_among_the_allowed(tmp_path):
+    said = in_a_process(
+        """
+from orchestrator.errors import ScenarioError
+from orchestrator.scenario.file import load_scenario
+print(load_scenario("small", {"depth": "linear"}).depth)
+try:
+    load_scenario("small", {"depth": "linaer"})
+except ScenarioError as error:
+    print(error)
+""",
+        folder=tmp_path,
+    )
+    assert said.startswith("linear\n")
+    assert "did you mean 'linear'? allowed are v1, v2, v3, linear" in said
+
+
+def test_figures_give_it_a_colour_and_its_title(tmp_path):
+    said = in_a_process(
+        """
+from orchestrator.results.figures import style
+print(style.depth_name("linear"), len({style.colour_of(d) for d in ("v1", "v2", "v3", "linear", "mixed")}))
+""",
+        folder=tmp_path,
+    )
+    assert said == "LINEAR: spring and damper 5\n"
+
+
+RUN = """
+import numpy as np
+from pathlib import Path
+from orchestrator.case.simulate import default_threads, simulate
+from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.scenario.file import load_scenario, train_of
+from rich.console import Console
+scenario = load_scenario("small", {"depth": "linear", "end": 2e-3, "event": None})
+train = train_of(scenario)
+folder = Path(sys.argv[1])
+ensure_fmus(folder, train, {"linear"}, Console(stderr=True))
+assert default_threads(scenario, train) == 1
+record = simulate(scenario, folder).record
+assert record.attrs["status"] == "finished", record.attrs
+force = record["force"].isel(time=0).values
+np.savetxt(sys.stdout, np.hstack([force, record["displacement"].isel(time=0).values]))
+"""
+
+
+def test_it_is_built_and_run(tmp_path):
+    """The FMU holds its film, and carries the train from the start to the end."""
+    from zipfile import ZipFile
+
+    in_a_process(RUN, "fmus", folder=tmp_path)
+    with ZipFile(tmp_path / "fmus" / "bearing_linear.fmu") as archive:
+        assert "resources/packages/tests/linear_film.py" in archive.namelist()
+        description = archive.read("modelDescription.xml").decode()
+    assert 'name="film.scale"' in description and "a linear spring and damper" in description
+    assert 'memoryless="true"' in description and "isotropic" not in description
+
+
+@pytest.mark.parametrize("name", ["v1", "Linear", "a-b", ""])
+def test_names_that_are_taken_or_unfit_are_refused(name):
+    from dataclasses import replace
+
+    from bearing_fmu import depths
+
+    with pytest.raises(ValueError, match=r"taken|allowed are small letters"):
+        depths.register(replace(depths.find("v1"), name=name, title="another"))
