@@ -95,8 +95,9 @@ class Depth:
     def variables(self) -> tuple[Variable, ...]:
         """The unit, in the order of its value references."""
         own = tuple(v.name for v in self.parameters[len(port.BEARING_PARAMETERS) :])
-        outputs = (replace(v, starts_on=(*(v.starts_on or ()), *own)) for v in port.BEARING_OUTPUTS)
-        return (*port.BEARING_INPUTS, *outputs, *self.parameters)
+        computed = (*port.BEARING_OUTPUTS, port.BEARING_FAILURE)
+        *outputs, failure = (replace(v, starts_on=(*(v.starts_on or ()), *own)) for v in computed)
+        return (*port.BEARING_INPUTS, *outputs, *self.parameters, failure)
 
     def make(self, values: Mapping[str, Value]) -> Film:
         """Make the film of these parameters; ValueError names the one that is out of range."""

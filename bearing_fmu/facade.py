@@ -10,7 +10,8 @@ from typing import Any, Self
 import numpy as np
 
 from bearing_fmu import depths
-from fmus.unit.failure import FILM_FAILED, UnitError
+from fmus import port
+from fmus.unit.failure import UnitError
 from fmus.unit.layout import Layout
 from fmus.unit.slave import UnitSlave
 
@@ -89,7 +90,7 @@ class BearingSlave(UnitSlave):
         try:
             outputs, state = self._film.evaluate(state, self.inputs, dt)
         except ArithmeticError as error:
-            raise UnitError(f"{FILM_FAILED}: {error}") from None
+            raise UnitError(f"film failed: {error}", port.Failure.FILM) from None
         self._outputs[:] = outputs
         self._state = state
 

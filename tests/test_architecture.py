@@ -36,7 +36,7 @@ ROOMS = (
 
 UPWARDS: set[tuple[str, str]] = set()
 CIRCLES: set[tuple[str, str]] = set()
-LONG_FILES = {"fmus/unit/slave.py"}
+LONG_FILES: set[str] = set()
 LONG_FUNCTIONS: set[str] = set()
 
 # Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time
@@ -60,7 +60,6 @@ OF_FMUS_FOR_THE_MASTER = {
     "fmus.port.variable",
     "fmus.build.builder",
     "fmus.build.archive",
-    "fmus.unit.failure",
     "fmus.build.promises",
     "fmus.build.recipe",
 }

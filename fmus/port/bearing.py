@@ -16,6 +16,7 @@ from fmus.port.connector import (
     kinematics,
     law,
 )
+from fmus.port.failure import FAILURE
 from fmus.port.variable import Variable
 
 CLEARANCE = 8.62e-4
@@ -128,8 +129,11 @@ BEARING_KEYS: dict[str, str] = {
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 
-BEARING: tuple[Variable, ...] = BEARING_INPUTS + BEARING_OUTPUTS + BEARING_PARAMETERS
-"""The unit of a bearing, in the order of its value references; a depth may have more behind them."""
+BEARING_FAILURE = replace(FAILURE, depends_on=_ON_STATE, starts_on=_AT_START)
+"""The last variable of each bearing."""
+
+BEARING: tuple[Variable, ...] = (*BEARING_INPUTS, *BEARING_OUTPUTS, *BEARING_PARAMETERS, BEARING_FAILURE)
+"""The unit of a bearing, in the order of its value references; a depth may have more parameters."""
 
 
 def bearing_parameter(key: str) -> Variable:

@@ -33,7 +33,6 @@ _STIFFNESS_UNITS = (("N/m", "N/rad"), ("N", "N.m/rad"))
 _DAMPING_UNITS = (("N.s/m", "N.s/rad"), ("N.s", "N.m.s/rad"))
 
 JOURNAL = tuple(f"journal.{name}" for name in KINEMATICS)
-HOUSING = tuple(f"housing.{name}" for name in KINEMATICS)
 FORCE = tuple(f"wrench.{name}" for name in WRENCH)
 F0 = tuple(f"F0.{name}" for name in WRENCH)
 K = tuple(f"K[{i},{j}]" for i in range(1, 5) for j in range(1, 5))

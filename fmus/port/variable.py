@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import Literal
 
@@ -82,6 +83,21 @@ class Variable:
         high = inf if self.maximum is None else self.maximum
         whole = self.kind != "Integer" or (isfinite(value) and value == int(value))
         return isfinite(value) and whole and low <= value <= high and not (self.above and value == low)
+
+
+def with_starts(variables: Iterable[Variable], starts: Mapping[str, Value]) -> tuple[Variable, ...]:
+    """Replace the start values named in `starts`.
+
+    Raises
+    ------
+    ValueError
+        If a name is unknown, or its variable takes no start value.
+    """
+    ports = {v.name: v for v in variables}
+    for name in starts:
+        if name not in ports or ports[name].start is None:
+            raise ValueError(f"start value for {name!r}: not an input or a parameter of this unit")
+    return tuple(replace(v, start=starts.get(v.name, v.start)) for v in ports.values())
 
 
 @dataclass(frozen=True)

@@ -1,24 +1,43 @@
-"""How a unit fails: with a reason, never with an exception that crosses the C boundary."""
+"""How a unit fails: with a code and a reason, never with an exception that crosses the C boundary."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
-FILM_FAILED = "film failed"
-"""Begins the reason of a bearing that refuses a step because its film has no solution there."""
+from fmus.port.failure import Failure
 
 
 class UnitError(Exception):
-    """A parameter, an input or a state with which the unit cannot go on."""
+    """A parameter, an input or a state with which the unit cannot go on.
+
+    Parameters
+    ----------
+    reason : str
+        For the log.
+    code : Failure, optional
+        For the variable `failure`; default is what the failed call stands for.
+    """
+
+    def __init__(self, reason: str, code: Failure | None = None) -> None:
+        super().__init__(reason)
+        self.code = code
 
 
-def attempt(action: Callable[..., None], *arguments: Any) -> str:
-    """Run `action`; return what went wrong, empty if nothing did."""
+class Problem(NamedTuple):
+    """Why a call failed: `Failure.NONE` and an empty reason if it did not."""
+
+    code: Failure = Failure.NONE
+    reason: str = ""
+
+
+def attempt(default: Failure, action: Callable[..., None], *arguments: Any) -> Problem:
+    """Run `action`; return what went wrong, with the code `default` where the error names none."""
     try:
         action(*arguments)
     except (UnitError, ValueError) as error:
-        return str(error) or type(error).__name__
+        code = error.code if isinstance(error, UnitError) and error.code else default
+        return Problem(code, str(error) or type(error).__name__)
     except Exception as error:  # any: pythonfmu would make fmi2Fatal of it
-        return f"{type(error).__name__}: {error}"
-    return ""
+        return Problem(default, f"{type(error).__name__}: {error}")
+    return Problem()

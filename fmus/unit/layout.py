@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from fmus.port.failure import FAILURE
 from fmus.port.variable import Kind, Variable
 
 
@@ -27,7 +28,7 @@ class Layout:
     ----------
     variables : tuple of Variable
         Inputs first, all Real; parameters and calculated parameters in one block;
-        outputs in one block, lazy ones aside.
+        Real outputs in one block, lazy ones aside; `failure` among the variables.
 
     Raises
     ------
@@ -74,7 +75,9 @@ class Layout:
         set_field(self, "lazy", {g: frozenset(i for i, v in numbered if v.lazy == g) for g in groups})
         set_field(self, "lazy_span", {group: (min(vrs), max(vrs)) for group, vrs in self.lazy.items()})
         set_field(self, "inputs", inputs)
-        eager = (i for i, v in numbered if v.causality == "output" and not v.lazy)
+        if FAILURE.name not in index:
+            raise ValueError(f"port: the output {FAILURE.name} is missing")
+        eager = (i for i, v in numbered if v.causality == "output" and v.kind == "Real" and not v.lazy)
         set_field(self, "outputs", _block(self.variables, eager, "outputs"))
         fixed = (i for i, v in numbered if v.variability == "fixed")
         set_field(self, "parameters", _block(self.variables, fixed, "parameters"))

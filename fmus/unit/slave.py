@@ -15,32 +15,31 @@ of the unit, so that the host crashes when it frees the instance.  A bad paramet
 a failed start is logged and kept: the outputs are NaN, and every ``do_step`` returns
 ``fmi2Discard`` with the reason in the log.  A failed step is ``fmi2Discard``, too; it
 leaves the unit as it was and may be repeated with other inputs or a smaller step.
+The output `failure` says of which kind the failure is.
 """
 
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-import numpy as np
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
+from fmus.port.failure import FAILURE, Failure
 from fmus.port.variable import Kind
-from fmus.unit.failure import UnitError, attempt
+from fmus.unit.failure import Problem, UnitError, attempt
+from fmus.unit.hooks import Hooks
 from fmus.unit.layout import Layout
-from fmus.unit.state import ModelState, UnitState, unpack
-from fmus.unit.values import Store
-
-_NAMED = 8  # of the bad inputs in a message
+from fmus.unit.state import UnitState, unpack
+from fmus.unit.values import Values
 
 INSTANTIATED, INITIALIZATION, STEP, TERMINATED = range(4)  # modes, FMI 2.0, section 4.2.4
 
 
-class UnitSlave(Fmi2Slave):
-    """A unit of the port; facades fill in the hooks `prepare`, `start`, `advance`.
+class UnitSlave(Hooks, Fmi2Slave):
+    """A unit of the port; facades fill in the hooks.
 
     Parameters
     ----------
@@ -48,29 +47,18 @@ class UnitSlave(Fmi2Slave):
         The variables of the unit.
     **kwargs
         What pythonfmu passes: instance_name, resources, visible, logger.
-
-    Attributes
-    ----------
-    values : ndarray of float64, shape (variables,)
-        All values but strings, by value reference.  Facades hold views on it.
-    inputs : ndarray of float64
-        The view on the inputs.
-    strings : dict
-        Values of the String variables, by value reference.
-    start_time : float
-        Time at the start of the simulation [s].
     """
 
     digest: ClassVar[bytes] = bytes(16)  # of the FMU; the entry script sets it
-    model_type: ClassVar[type[ModelState] | None] = None  # of the model's state, where it has one
 
     def __init__(self, layout: Layout, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.layout = layout
-        self._store = Store(layout)
-        self.values = self._store.values
+        self._values = Values(layout)
+        self.values = self._values.numbers
         self.inputs = self.values[layout.inputs]
-        self.strings = self._store.strings
+        self.strings = self._values.strings
+        self._code = layout[FAILURE.name]
         self.start_time = 0.0
         self._mode = INSTANTIATED
         self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
@@ -78,34 +66,6 @@ class UnitSlave(Fmi2Slave):
         self._stale = set(layout.lazy)  # groups that do not belong to the present state
         self._failure = ""  # of the start
         self._misuse = ""  # a call that FMI forbids
-
-    # -- hooks ---------------------------------------------------------------
-
-    @abstractmethod
-    def prepare(self) -> None:
-        """Build the model from the parameters and write the calculated parameters."""
-
-    @abstractmethod
-    def start(self) -> None:
-        """Write the outputs at the start time from inputs and parameters."""
-
-    def starts_on(self) -> int:
-        """Return how many inputs, from the first, the start depends on; others may be NaN until a step."""
-        return len(self.inputs)
-
-    @abstractmethod
-    def advance(self, time: float, step: float) -> None:
-        """Step from `time` by `step` and write the outputs; on error leave all as it was."""
-
-    def observe(self, group: str) -> None:
-        """Write the lazy variables of `group` for the present state."""
-
-    def model_state(self) -> ModelState | None:
-        """Return what the model holds beyond the values, of the type `model_type`."""
-        return None
-
-    def restore_model(self, state: Any) -> None:
-        """Take back what `model_state` returned; `prepare` has run."""
 
     # -- life cycle ----------------------------------------------------------
 
@@ -133,27 +93,37 @@ class UnitSlave(Fmi2Slave):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the unit; False (fmi2Discard) with the reason in the log if it cannot."""
-        problem = self._misuse or self._failure
-        if not problem and self._mode != STEP:
-            problem = "a step is due between the end of initialization and termination only"
-        if not problem:
-            problem = attempt(self._checked_step, current_time, step_size)
+        code, reason = self._unready()
+        if not reason:
+            code, reason = attempt(Failure.STEP, self._checked_step, current_time, step_size)
             self._stale = set(self.layout.lazy)
-        if problem:
-            self._report(f"step from t = {current_time} s by {step_size} s refused: {problem}")
-        return not problem
+        self._values.put(self._code, code)
+        if reason:
+            self._report(f"step from t = {current_time} s by {step_size} s refused: {reason}")
+        return not reason
+
+    def _unready(self) -> Problem:
+        """Say why no step can be taken at all."""
+        if self._misuse:
+            return Problem(Failure.CALL, self._misuse)
+        if self._failure:
+            return Problem(Failure(int(self.values[self._code])), self._failure)
+        if self._mode != STEP:
+            text = "a step is due between the end of initialization and termination only"
+            return Problem(Failure.CALL, text)
+        return Problem()
 
     def _checked_step(self, time: float, step: float) -> None:
         if not (0.0 < step < math.inf and math.isfinite(time)):
-            raise UnitError("the step must be positive and finite")
-        _check_inputs(self.layout, self.inputs)
+            raise UnitError("the step must be positive and finite", Failure.CALL)
+        self._values.check_inputs(len(self.inputs))
         self.advance(time, step)
 
     def _solve(self) -> None:
         """Prepare and start where something was set since; the reason of a failure is kept."""
         if not self._unsolved:
             return
-        self._failure = attempt(self._initialize)
+        code, self._failure = attempt(Failure.PARAMETER, self._initialize)
         self._unsolved = False
         self._stale = set(self.layout.lazy)
         if self._failure:
@@ -161,9 +131,10 @@ class UnitSlave(Fmi2Slave):
             self.values[self.layout.outputs] = math.nan
             if self._prepared_for is None:
                 self.values[list(self.layout.computed)] = math.nan
+        self._values.put(self._code, code)
 
     def _initialize(self) -> None:
-        _check_inputs(self.layout, self.inputs[: self.starts_on()])
+        self._values.check_inputs(self.starts_on())
         for i in self.layout.settable["Real"]:
             if math.isnan(self.values[i]):
                 raise UnitError(f"parameter {self.layout.variables[i].name} is not a number")
@@ -171,19 +142,19 @@ class UnitSlave(Fmi2Slave):
         self.start()
 
     def _prepare_if_changed(self) -> None:
-        if self._store.parameters() != self._prepared_for:
+        if self._values.parameters() != self._prepared_for:
             self._prepared_for = None
             self.prepare()
-            self._prepared_for = self._store.parameters()
+            self._prepared_for = self._values.parameters()
 
     # -- values --------------------------------------------------------------
 
     def get_real(self, vrs: list[int]) -> list[float]:
         """Return values, computed first where that is due."""
-        block = self._store.block(vrs)
+        block = self._values.block(vrs)
         self._update(vrs, block)
         try:
-            return self._store.read(vrs, block)
+            return self._values.read(vrs, block)
         except IndexError:
             self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
             self._report(self._misuse, Fmi2Status.error)
@@ -219,9 +190,9 @@ class UnitSlave(Fmi2Slave):
             self.strings.update(zip(vrs, values, strict=True))
 
     def _write(self, kind: Kind, vrs: list[int], values: Sequence[float]) -> None:
-        block = self._store.block(vrs)
+        block = self._values.block(vrs)
         if self._accepts(vrs, kind, block):
-            self._store.write(vrs, values, block)
+            self._values.write(vrs, values, block)
 
     def _accepts(self, vrs: list[int], kind: Kind, block: slice | None = None) -> bool:
         """Tell whether FMI allows to set these now; if not, no step will follow."""
@@ -246,10 +217,10 @@ class UnitSlave(Fmi2Slave):
             if block is not None and (block.stop <= first or last < block.start):
                 continue  # at a glance, for it is asked at every step
             if not self.layout.lazy[group].isdisjoint(vrs):
-                problem = self._failure or attempt(self.observe, group)
-                if problem:
+                reason = self._failure or attempt(Failure.STEP, self.observe, group).reason
+                if reason:
                     self.values[list(self.layout.lazy[group])] = math.nan
-                    self._report(f"{group} not computed: {problem}", Fmi2Status.warning)
+                    self._report(f"{group} not computed: {reason}", Fmi2Status.warning)
                 self._stale.discard(group)
 
     # -- state ---------------------------------------------------------------
@@ -258,23 +229,23 @@ class UnitSlave(Fmi2Slave):
         """Return the whole unit: values, texts, model, and where it stands."""
         # parameters cannot change in the step mode
         known = self._prepared_for
-        prepared = known is not None and (self._mode == STEP or known == self._store.parameters())
+        prepared = known is not None and (self._mode == STEP or known == self._values.parameters())
         stale = sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale)
         texts = [self._failure, self._misuse, *self.strings.values()]
         model = self.model_state() if prepared else None
-        numbers = self._store.pack()
+        numbers = self._values.pack()
         return UnitState(self._mode, prepared, self._unsolved, stale, self.start_time, numbers, texts, model)
 
     def _set_fmu_state(self, state: UnitState | bytes) -> None:
-        problem = attempt(self._restore, state)
-        if problem:
-            self._misuse = problem
-            self._report(problem, Fmi2Status.error)
+        reason = attempt(Failure.CALL, self._restore, state).reason
+        if reason:
+            self._misuse = reason
+            self._report(reason, Fmi2Status.error)
 
     def _restore(self, state: UnitState | bytes) -> None:
         if isinstance(state, bytes):
             state = unpack(state, self.digest, 2 + len(self.strings), self.model_type)
-        self._store.unpack(state.values)
+        self._values.unpack(state.values)
         self._failure, self._misuse, *strings = state.texts
         self.strings.update(zip(self.strings, strings, strict=True))
         if state.prepared:
@@ -297,11 +268,3 @@ class UnitSlave(Fmi2Slave):
     def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
         # the text passes through printf on its way out
         self.log(f"{self.instance_name}: {message}".replace("%", "%%"), status)
-
-
-def _check_inputs(layout: Layout, inputs: np.ndarray) -> None:
-    # one pass: a single NaN or infinity spoils the sum of squares
-    if not math.isfinite(inputs.dot(inputs)):
-        bad = [layout.variables[i].name for i, x in enumerate(inputs) if not math.isfinite(x)]
-        more = f" and {len(bad) - _NAMED} more" if len(bad) > _NAMED else ""
-        raise UnitError(f"input {', '.join(bad[:_NAMED])}{more} is not a finite number")

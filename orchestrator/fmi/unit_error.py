@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from fmus.unit.failure import FILM_FAILED
+from fmus import port
 from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
 
@@ -30,15 +30,16 @@ class UnitError(OrchestratorError):
     status : Status
         What it returned; `Status.DISCARD` leaves a step that may be tried again.
     outcome : Outcome
-        How a run ends that cannot go on from here.
+        How a run ends that cannot go on from here: by the status, and by what the unit's output
+        `failure` says (`fmus.port.Failure`), 0 where it has none.
     """
 
-    def __init__(self, unit: str, call: str, status: Status, reason: str) -> None:
+    def __init__(self, unit: str, call: str, status: Status, reason: str, failure: int = 0) -> None:
         self.unit = unit
         self.status = status
         if status is not Status.DISCARD:
             self.outcome = Outcome.UNIT_FAILED
-        elif FILM_FAILED in reason:
+        elif failure == port.Failure.FILM:
             self.outcome = Outcome.FILM_FAILED
         else:
             self.outcome = Outcome.STEP_REFUSED

@@ -11,7 +11,8 @@ from fmus.unit.layout import Layout
 def test_blocks_of_the_bearing():
     layout = Layout(port.BEARING)
     assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 69))
-    assert layout.parameters == slice(69, len(port.BEARING))
+    assert layout.parameters == slice(69, len(port.BEARING) - 1)
+    assert layout[port.FAILURE.name] == len(port.BEARING) - 1
     assert layout.block("journal.x", "journal.tilt_rate_y") == slice(0, 8)
 
 
@@ -42,7 +43,12 @@ def test_a_start_value_for_what_takes_none_is_refused(name):
 
 @pytest.mark.parametrize(
     "variables",
-    [VARIABLES[::-1], VARIABLES + VARIABLES[:1], (Variable("n", "input", kind="Integer", start=1),)],
+    [
+        VARIABLES[::-1],
+        VARIABLES + VARIABLES[:1],
+        VARIABLES[:-1],
+        (Variable("n", "input", kind="Integer", start=1),),
+    ],
 )
 def test_another_order_is_refused(variables):
     with pytest.raises(ValueError, match="port"):

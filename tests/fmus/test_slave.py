@@ -5,6 +5,8 @@ import math
 
 import pytest
 
+from fmus.port.failure import Failure
+
 ERROR = 3
 
 
@@ -102,6 +104,40 @@ def test_a_step_that_does_not_advance_is_refused(spring, step):
     spring.start()
     assert not spring.step(0.0, step)
     assert "positive" in spring.said
+
+
+@pytest.mark.parametrize(
+    ("inputs", "step", "code"),
+    [
+        ({"v": math.nan}, 1e-3, Failure.INPUT),
+        ({"x": 1.0}, 1e-3, Failure.STEP),
+        ({}, -1e-3, Failure.CALL),
+        ({"stiffness": 1.0}, 1e-3, Failure.CALL),
+    ],
+)
+def test_a_refused_step_says_its_kind_until_the_next_that_is_not(spring, inputs, step, code):
+    spring.start()
+    good = spring.state()
+    assert spring.get("failure") == Failure.NONE
+    spring.set(inputs)
+    assert not spring.step(0.0, step) and spring.get("failure") == code
+    refused = spring.state()
+    spring.restore(good)
+    assert spring.get("failure") == Failure.NONE
+    assert spring.step(0.0, 1e-3) and spring.get("failure") == Failure.NONE
+    spring.restore(refused)
+    assert spring.get("failure") == code
+
+
+@pytest.mark.parametrize(
+    ("start", "code"), [({"stiffness": -1.0}, Failure.PARAMETER), ({"x": math.inf}, Failure.INPUT)]
+)
+def test_a_failed_start_says_its_kind_at_every_step(spring, start, code):
+    spring.set(start)
+    assert math.isnan(spring.get("F")) and spring.get("failure") == code
+    spring.start()
+    for _ in range(2):
+        assert not spring.step(0.0, 1e-3) and spring.get("failure") == code
 
 
 def test_the_step_may_vary(spring):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fmus.port import Failure
 from orchestrator.case.simulate import simulate
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master import assembly
@@ -187,9 +188,9 @@ def test_the_summary_says_outcome_status_message_and_advice(outcome):
 
 
 def test_a_unit_error_carries_the_outcome():
-    film = UnitError("front", "fmi2DoStep", Status.DISCARD, "front: film failed: GAP_CLOSED")
-    other = UnitError("front", "fmi2DoStep", Status.DISCARD, "too long a step")
-    broken = UnitError("front", "fmi2DoStep", Status.FATAL, "film failed")
+    film = UnitError("front", "fmi2DoStep", Status.DISCARD, "front: GAP_CLOSED", Failure.FILM)
+    other = UnitError("front", "fmi2DoStep", Status.DISCARD, "film failed, says a message", Failure.STEP)
+    broken = UnitError("front", "fmi2DoStep", Status.FATAL, "film failed", Failure.FILM)
     outcomes = [error.outcome for error in (film, other, broken)]
     assert outcomes == [Outcome.FILM_FAILED, Outcome.STEP_REFUSED, Outcome.UNIT_FAILED]
 

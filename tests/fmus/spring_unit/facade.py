@@ -2,6 +2,7 @@
 
 import struct
 
+from fmus.port.failure import FAILURE
 from fmus.port.variable import Variable
 from fmus.unit.failure import UnitError
 from fmus.unit.layout import Layout
@@ -21,6 +22,7 @@ VARIABLES = (
     Variable("label", "parameter", "", "a name, 100 % free", "plain", kind="String"),
     Variable("compliance", "calculatedParameter", "", "1 / stiffness", starts_on=("stiffness",)),
     Variable("energy", "output", "J", "energy in the spring", lazy="energy"),
+    FAILURE,
 )
 LAYOUT = Layout(VARIABLES)
 

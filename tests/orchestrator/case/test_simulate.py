@@ -119,7 +119,7 @@ def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, t
     result = simulate(toy_scenario(tmp_path, event={**BLADE, "unbalance": 1e3}), fmus)
     assert result.outcome is Outcome.FILM_FAILED
     assert not result.outcome.ok
-    assert "front: fmi2DoStep returned discard: film failed: the journal has left its bore" in result.message
+    assert "front: fmi2DoStep returned discard: the journal has left its bore" in result.message
     last = result.record["eccentricity"].sel(bearing="front").values[-1]
     assert f"last state of front: eccentricity ratio {last:.4g}, tilts " in result.message
     assert f"least gap {1e6 * result.record['least_gap'].values[-1, 0]:.4g} um" in result.message

@@ -14,6 +14,7 @@ import xarray as xr
 from rich.console import Console
 from typer.testing import CliRunner
 
+from fmus.port import Failure
 from orchestrator.cli.main import app
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.file import FmuStore
@@ -196,7 +197,7 @@ FAILURES = [
         ),
     ),
     pytest.param(
-        UnitError("front", "fmi2GetReal", Status.DISCARD, "film failed: NO_SOLUTION"),
+        UnitError("front", "fmi2GetReal", Status.DISCARD, "NO_SOLUTION", Failure.FILM),
         Outcome.FILM_FAILED,
         marks=fault(
             "film",

@@ -16,14 +16,13 @@ class PortUnit(Fmi2Slave):
         for v in variables:
             neutral = "" if v.kind == "String" else 0.0
             self.values[v.name] = neutral if v.start is None else v.start
-            fixed = v.causality in ("parameter", "calculatedParameter")
             self.register_variable(
                 _TYPES[v.kind](
                     v.name,
                     causality=Fmi2Causality[v.causality],
                     getter=lambda name=v.name: self.values[name],
                     setter=lambda value, name=v.name: self.values.__setitem__(name, value),
-                    **({"variability": Fmi2Variability.fixed} if fixed else {}),
+                    variability=Fmi2Variability[v.variability],
                 ),
                 nested=False,
             )

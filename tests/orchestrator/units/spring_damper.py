@@ -7,7 +7,6 @@ import numpy as np
 from port_unit import PortUnit
 
 from fmus import port
-from fmus.unit.failure import FILM_FAILED
 
 _OWN = (
     port.Variable("spring.stiffness", "parameter", start=2e7),
@@ -44,6 +43,7 @@ class SpringDamper(PortUnit):
 
     def do_step(self, current_time, step_size):
         end = current_time + step_size
+        self.values["failure"] = port.Failure.NONE
         if end > self.values["break_after"]:
             raise RuntimeError("the spring is broken")
         if end > self.values["refuse_after"]:
@@ -53,5 +53,6 @@ class SpringDamper(PortUnit):
             return self.refuse("too long a step")
         self.solve()
         if not self.values["eccentricity"] < 1.0:
-            return self.refuse(f"{FILM_FAILED}: the journal has left its bore")
+            self.values["failure"] = port.Failure.FILM
+            return self.refuse("the journal has left its bore")
         return True
