@@ -24,10 +24,9 @@ from fmpy.fmi2 import (
 )
 from numpy.typing import NDArray
 
-from fmus import port
 from orchestrator.errors import FmuError, PortError
 from orchestrator.fmi.file import Call, FmuFile
-from orchestrator.fmi.unit_error import Status, UnitError
+from orchestrator.fmi.unit_error import Status, UnitError, failure_of
 
 __all__ = ["Block", "Status", "Unit", "UnitError"]
 
@@ -183,17 +182,8 @@ class Unit:
         code = Status(status) if status in _STATUSES else Status.FATAL  # whatever the unit means by it
         self._worst = max(self._worst, code)
         reason = self._messages[-1] if self._messages else ""  # before the next call logs another
-        raise UnitError(self.name, function, code, reason, self._failure() if code is Status.DISCARD else 0)
-
-    def _failure(self) -> int:
-        """What the unit's output `failure` says of a call that it refused; 0 where it has no such output."""
-        variable = self.file.variables.get(port.FAILURE.name)
-        if variable is None or (variable.type, variable.causality) != ("Integer", "output"):
-            return 0
-        try:
-            return int(self._slave.getInteger([variable.valueReference])[0])
-        except FMICallException:
-            return 0
+        said = failure_of(self.file.variables, self._slave) if code is Status.DISCARD else 0
+        raise UnitError(self.name, function, code, reason, said)
 
     def _call(self, method: str, *arguments: Any) -> Any:
         self.call = [f"fmi2{method[0].upper()}{method[1:]}"]

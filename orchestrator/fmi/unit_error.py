@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from contextlib import suppress
 from enum import IntEnum
+from typing import Any
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
 
 from fmus import port
 from orchestrator.errors import OrchestratorError
@@ -44,3 +50,12 @@ class UnitError(OrchestratorError):
         else:
             self.outcome = Outcome.STEP_REFUSED
         super().__init__(f"{unit}: {call} returned {status.name.lower()}" + (f": {reason}" if reason else ""))
+
+
+def failure_of(variables: Mapping[str, Any], slave: FMU2Slave) -> int:
+    """What the output `failure` says of a call that a unit refused; 0 for a unit without such an output."""
+    with suppress(KeyError, FMICallException):
+        found = variables[port.FAILURE.name]
+        if (found.type, found.causality) == ("Integer", "output"):
+            return int(slave.getInteger([found.valueReference])[0])
+    return 0
