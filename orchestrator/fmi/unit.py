@@ -1,7 +1,6 @@
 """One FMU instance, driven by prepared calls.
 
-Variables that travel every macro step are bound once to numpy arrays as a `Block`:
-value references and values stay where they are, and a get or set is one foreign call.
+Variables that travel every macro step are bound once to numpy arrays (`orchestrator.fmi.block`).
 Everything else goes through fmpy.  Any status but OK is an error with the reason that
 the unit logged (FMI 2.0.4, sections 2.1.3 and 4.2).
 """
@@ -28,36 +27,13 @@ from orchestrator.errors import FmuError, PortError
 from orchestrator.fmi.file import Call, FmuFile
 from orchestrator.fmi.unit_error import Status, UnitError, failure_of
 
-__all__ = ["Block", "Status", "Unit", "UnitError"]
+__all__ = ["Status", "Unit", "UnitError"]
 
 _KEPT_MESSAGES = 50
 _STATUSES = frozenset(Status)
 _VALUE_CONVERSION: dict[str, Callable[[Any], Any]] = {
     "Real": float, "Integer": int, "Boolean": bool, "String": str,
 }  # fmt: skip
-
-
-class Block:
-    """Real variables of one unit bound to a part of a numpy array.
-
-    Attributes
-    ----------
-    get, set : callable
-        Move all values from the unit into the array, or from the array into the unit.
-    """
-
-    def __init__(self, unit: Unit, names: Sequence[str], values: NDArray[np.float64]) -> None:
-        if values.shape != (len(names),) or values.dtype != np.float64 or not values.flags.c_contiguous:
-            raise ValueError(f"a block of {len(names)} values needs as many contiguous float64")
-        references = np.array([unit.variable(name).valueReference for name in names], dtype=np.uint32)
-        arguments = (
-            unit.component,
-            ctypes.c_void_p(references.ctypes.data),
-            ctypes.c_size_t(len(names)),
-            ctypes.c_void_p(values.ctypes.data),
-        )
-        self.get = unit.prepare("fmi2GetReal", arguments, (references, values))
-        self.set = unit.prepare("fmi2SetReal", arguments, (references, values))
 
 
 class Unit:
@@ -206,13 +182,14 @@ class Unit:
 
     def get_real(self, names: Sequence[str]) -> NDArray[np.float64]:
         """Get Real variables by name."""
-        values = np.empty(len(names))
-        Block(self, names, values).get()
-        return values
+        return np.array(self._call("getReal", self._references(names)))
 
     def set_real(self, names: Sequence[str], values: NDArray[np.float64]) -> None:
         """Set Real variables by name."""
-        Block(self, names, np.array(values, dtype=np.float64).ravel()).set()
+        self._call("setReal", self._references(names), np.ravel(values).tolist())
+
+    def _references(self, names: Sequence[str]) -> list[int]:
+        return [self.variable(name).valueReference for name in names]
 
     def enter_initialization(self, start: float = 0.0, stop: float | None = None) -> None:
         """Set up the experiment and enter Initialization Mode."""

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.errors import PortError
-from orchestrator.fmi.unit import Block, Unit
+from orchestrator.fmi.block import Block
+from orchestrator.fmi.unit import Unit
 from orchestrator.master.threads import StepThreads
 
 

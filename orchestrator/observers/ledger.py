@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmus import port
-from orchestrator.fmi.unit import Block
+from orchestrator.fmi.block import Block
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System

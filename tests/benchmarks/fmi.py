@@ -17,8 +17,9 @@ import numpy as np
 from bearing_fmu.recipe import bearing_recipe
 from fmus import port
 from fmus.build.builder import write
+from orchestrator.fmi.block import Block
 from orchestrator.fmi.file import FmuStore
-from orchestrator.fmi.unit import Block, Unit
+from orchestrator.fmi.unit import Unit
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import load_train
 

@@ -5,7 +5,8 @@ import pytest
 
 from fmus import port
 from orchestrator.errors import FmuError, PortError
-from orchestrator.fmi.unit import Block, Status, Unit, UnitError
+from orchestrator.fmi.block import Block
+from orchestrator.fmi.unit import Status, Unit, UnitError
 from tests.faults import fault
 
 
