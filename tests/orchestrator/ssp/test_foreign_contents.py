@@ -119,7 +119,7 @@ def test_a_model_identifier_with_a_path(small_fmus, room, tmp_path):
     "archive",
     "a parameter of an SSP that is no number",
     "SspError; parameter and text",
-    guard="orchestrator.ssp.reader:_Reader._value",
+    guard="orchestrator.ssp.values:_converted",
 )
 @pytest.mark.parametrize("text", ["nan", "1,5"])
 def test_a_parameter_that_is_no_number(text, small_ssp, tmp_path):
