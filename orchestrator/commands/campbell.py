@@ -5,24 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.table import Table
 
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.campbell import free_data, supported_data
-from orchestrator.linear.case import (
-    COLUMNS_EXPLAINED,
-    FULL,
-    HERTZ,
-    LinearCase,
-    error_text,
-    linear_case,
-    shaft_column,
-    whirl_name,
-    write_results,
-)
-from orchestrator.linear.operating_point import bearing_data
+from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
+from orchestrator.linear.tables import COLUMNS_EXPLAINED, error_text, shaft_column, table_of, whirl_name
 from orchestrator.results.figures.campbell import free_figure, supported_figure
 from rotor_fmu.linear.analysis import WhirlError
 
@@ -48,8 +37,9 @@ def run(request: LinearRequest, console: Console, *, supported: bool, count: int
     case = linear_case(request, console)
     if supported:
         data = supported_data(case, count, highest)
-        bearings = bearing_data(case.operating_point, case.train, case.films)
-        write_results(case, [data, bearings], supported_table(case, data), supported_figure(data, case.train))
+        write_results(
+            case, [data, case.bearing_data], supported_table(case, data), supported_figure(data, case.train)
+        )
         return 0
     try:
         data, iterations = free_data(case, count, highest)
@@ -63,11 +53,9 @@ def free_table(case: LinearCase, data: xr.Dataset) -> Table:
     """Largest error of each bending frequency over speed and direction, a row a mode."""
     top = float(data["rotation"][-1])
     size = data.attrs["degrees_of_freedom"]
-    table = Table(
-        title=f"Largest relative errors of the bending frequencies, 0 to {top:g} Hz of rotation, "
-        f"{case.shaft.size} degrees of freedom reduced to {size}",
-        box=box.SIMPLE_HEAD,
-        title_justify="left",
+    table = table_of(
+        f"Largest relative errors of the bending frequencies, 0 to {top:g} Hz of rotation, "
+        f"{case.shaft.size} degrees of freedom reduced to {size}"
     )
     shafts = [str(name) for name in data["shaft"].values[1:]]
     for name in ("mode", "at rest [Hz]", *shafts):
@@ -84,7 +72,6 @@ def free_table(case: LinearCase, data: xr.Dataset) -> Table:
         f"{COLUMNS_EXPLAINED} Modal truncation is what plain IRS converges to: the floor set by leaving "
         f"G out of its transformation. Green: up to {TOLERANCE:.0e}."
     )
-    table.caption_justify = "left"
     return table
 
 
@@ -93,11 +80,9 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     at = int(np.abs(data["rotation"].values - case.train.speed / HERTZ).argmin())
     top, here = float(data["rotation"][-1]), float(data["rotation"][at])
     methods = [str(name) for name in data["shaft"].values[1:]]
-    table = Table(
-        title=f"{case.train.name} on {case.films}: modes at {here:g} Hz of rotation, "
-        f"and largest error of an eigenvalue, 0 to {top:g} Hz",
-        box=box.SIMPLE_HEAD,
-        title_justify="left",
+    table = table_of(
+        f"{case.train.name} on {case.films}: modes at {here:g} Hz of rotation, "
+        f"and largest error of an eigenvalue, 0 to {top:g} Hz"
     )
     for name in ("mode", "Hz", "damping\nratio", "whirl", *methods):
         table.add_column(shaft_column(name), justify="left" if name == "whirl" else "right")
@@ -113,5 +98,5 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     largest = [float(errors.sel(shaft=name).max()) for name in methods]
     table.add_section()
     table.add_row("all", "", "", "", *(error_text(error, TOLERANCE) for error in largest))
-    table.caption, table.caption_justify = COLUMNS_EXPLAINED, "left"
+    table.caption = COLUMNS_EXPLAINED
     return table

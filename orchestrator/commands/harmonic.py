@@ -7,20 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from rich import box
 from rich.table import Table
 
 from orchestrator.fmi.blas import one_blas_thread
-from orchestrator.linear.case import (
-    COLUMNS_EXPLAINED,
-    FULL,
-    HERTZ,
-    LinearCase,
-    linear_case,
-    shaft_column,
-    write_results,
-)
-from orchestrator.linear.operating_point import bearing_data
+from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
+from orchestrator.linear.tables import COLUMNS_EXPLAINED, shaft_column, table_of
 from orchestrator.results.figures.harmonic import harmonic_figure
 from rotor_fmu.linear.analysis import HarmonicResponse, half_axes, unbalance_responses
 
@@ -50,11 +41,9 @@ def run(request: LinearRequest, console: Console, *, highest: float) -> int:
     if rated <= highest:
         rotation = np.union1d(rotation.round(9), [round(rated, 9)])
     shaft, places, forces = harmonic_data(case, rotation)
-    bearings = bearing_data(case.operating_point, case.train, case.films)
     figure = harmonic_figure(shaft, places, forces, case.train)
-    write_results(
-        case, [shaft, places, forces, bearings], harmonic_table(case, shaft, places, forces), figure
-    )
+    table = harmonic_table(case, shaft, places, forces)
+    write_results(case, [shaft, places, forces, case.bearing_data], table, figure)
     return 0
 
 
@@ -116,13 +105,10 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
     at = int(np.abs(shaft["rotation"].values - rated).argmin())
     here, top = float(shaft["rotation"][at]), float(shaft["rotation"][-1])
     reduced = [str(name) for name in shaft["shaft"].values[1:]]
-    table = Table(
-        title=f"{case.train.name} on {case.films}: unbalance response at {here:g} Hz, its peak up to "
+    table = table_of(
+        f"{case.train.name} on {case.films}: unbalance response at {here:g} Hz, its peak up to "
         f"{top:g} Hz, and errors of reduced shafts at {here:g} Hz",
-        box=box.SIMPLE_HEAD,
-        title_justify="left",
-        collapse_padding=True,
-        pad_edge=False,
+        narrow=True,
     )
     for name in ("", f"µm at\n{here:g} Hz", "peak\nµm", "at\nHz", f"kN at\n{here:g} Hz"):
         table.add_column(name, justify="right" if name else "left", no_wrap=True)
@@ -150,5 +136,4 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
     table.caption = (
         f"Errors: of the amplitude in the first row, of the bearing forces in the others. {COLUMNS_EXPLAINED}"
     )
-    table.caption_justify = "left"
     return table

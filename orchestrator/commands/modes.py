@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from rich import box
 from rich.table import Table
 
 from orchestrator.fmi.blas import one_blas_thread
-from orchestrator.linear.case import HERTZ, LinearCase, linear_case, whirl_name, write_results
-from orchestrator.linear.operating_point import bearing_data
+from orchestrator.linear.case import HERTZ, LinearCase, linear_case, write_results
+from orchestrator.linear.tables import table_of, whirl_name
 from orchestrator.results.figures.mode_shapes import mode_shapes_figure
 from rotor_fmu.linear.analysis import half_axes, whirl_modes
 
@@ -32,8 +31,9 @@ def run(request: LinearRequest, console: Console, *, count: int) -> int:
     """
     case = linear_case(request, console)
     data = mode_data(case, count)
-    bearings = bearing_data(case.operating_point, case.train, case.films)
-    write_results(case, [data, bearings], mode_table(case, data), mode_shapes_figure(data, case.train))
+    write_results(
+        case, [data, case.bearing_data], mode_table(case, data), mode_shapes_figure(data, case.train)
+    )
     return 0
 
 
@@ -77,9 +77,7 @@ def mode_data(case: LinearCase, count: int) -> xr.Dataset:
 
 def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
     """Frequency, damping ratio and whirl, and where the shape is largest."""
-    table = Table(
-        title=f"{case.train.name} on {case.films}, unreduced shaft", box=box.SIMPLE_HEAD, title_justify="left"
-    )
+    table = table_of(f"{case.train.name} on {case.films}, unreduced shaft")
     for name in ("mode", "Hz", "damping\nratio", "whirl", "largest at\nz \\[m]", "nearest\nbearing"):
         table.add_column(name, justify="left" if name in ("whirl", "nearest\nbearing") else "right")
     z = data["z"].values

@@ -6,21 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from rich import box
 from rich.table import Table
 
 from orchestrator.fmi.blas import one_blas_thread
-from orchestrator.linear.case import (
-    COLUMNS_EXPLAINED,
-    HERTZ,
-    REDUCTIONS,
-    LinearCase,
-    error_text,
-    linear_case,
-    shaft_column,
-    write_results,
-)
-from orchestrator.linear.operating_point import bearing_data
+from orchestrator.linear.case import HERTZ, REDUCTIONS, LinearCase, linear_case, write_results
+from orchestrator.linear.tables import COLUMNS_EXPLAINED, error_text, shaft_column, table_of
 from rotor_fmu.linear.analysis import ReductionReport, reduction_report
 
 if TYPE_CHECKING:
@@ -63,7 +53,7 @@ def run(request: LinearRequest, console: Console) -> int:
     ]
     iterations = iteration_data(case)
     console.print(iteration_table(iterations))
-    data = [error_data(case, reports), iterations, bearing_data(case.operating_point, case.train, case.films)]
+    data = [error_data(case, reports), iterations, case.bearing_data]
     write_results(case, data, error_table(case, reports), None)
     return 0
 
@@ -115,12 +105,9 @@ def iteration_data(case: LinearCase) -> xr.Dataset:
 
 def iteration_table(data: xr.Dataset) -> Table:
     """The lowest frequencies after each iteration."""
-    table = Table(
-        title="Iterated IRS: frequencies at rest [Hz] after each iteration (0: Guyan),\nof the lowest modes",
-        box=box.SIMPLE_HEAD,
-        title_justify="left",
-        collapse_padding=True,
-        pad_edge=False,
+    table = table_of(
+        "Iterated IRS: frequencies at rest [Hz] after each iteration (0: Guyan),\nof the lowest modes",
+        narrow=True,
     )
     table.add_column("mode", justify="right")
     shown = data["mode"].values[:SHOWN]
@@ -133,11 +120,9 @@ def iteration_table(data: xr.Dataset) -> Table:
 
 def error_table(case: LinearCase, reports: list[ReductionReport]) -> Table:
     """Largest error of each quantity at each speed, a column a reduction."""
-    table = Table(
-        title=f"{case.train.name}: errors of reduced shafts against the unreduced one "
-        f"({case.shaft.size} degrees of freedom), {case.films}",
-        box=box.SIMPLE_HEAD,
-        title_justify="left",
+    table = table_of(
+        f"{case.train.name}: errors of reduced shafts against the unreduced one "
+        f"({case.shaft.size} degrees of freedom), {case.films}"
     )
     table.add_column("largest relative error of", no_wrap=True)
     table.add_column("Hz", justify="right")
@@ -158,7 +143,6 @@ def error_table(case: LinearCase, reports: list[ReductionReport]) -> Table:
         "Frequencies and eigenvalues: the lowest 16, relative to each. Loads and forces: relative to the "
         f"largest. Green: up to {GOOD:g}. {COLUMNS_EXPLAINED}"
     )
-    table.caption_justify = "left"
     return table
 
 

@@ -16,7 +16,7 @@ from rich.table import Table
 
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import own_bearings, require_trust
-from orchestrator.linear.operating_point import OperatingPoint, operating_point
+from orchestrator.linear.operating_point import OperatingPoint, bearing_data, operating_point
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
@@ -40,12 +40,6 @@ if TYPE_CHECKING:
 REDUCTIONS: tuple[Method, ...] = ("irs", "irs-plain", "guyan", "craig-bampton")
 assert set(REDUCTIONS) | {"none"} == set(METHODS)
 FULL = "unreduced"
-
-PLANAR = 0.2
-"""Whirl direction below which a mode is called planar."""
-
-_COLUMNS = {"irs": "IRS", "irs-plain": "IRS\nplain", "guyan": "Guyan", "craig-bampton": "CMS"}
-COLUMNS_EXPLAINED = "IRS: complemented, the default of runs; IRS plain: as published; CMS: Craig-Bampton."
 
 HERTZ = 2.0 * np.pi
 """rad/s of one revolution a second."""
@@ -153,6 +147,11 @@ class LinearCase:
         return np.asarray(amounts * np.exp(1j * phases))
 
     @property
+    def bearing_data(self) -> xr.Dataset:
+        """Stiffness and damping of the bearings at the operating point."""
+        return bearing_data(self.operating_point, self.train, self.films)
+
+    @property
     def films(self) -> str:
         """The films in words."""
         depths = {self.scenario.depth, *self.scenario.depth_at.values()}
@@ -225,23 +224,3 @@ def write_table(data: xr.Dataset, path: Path) -> None:
     units = {name: data[name].attrs.get("units", "") for name in frame.columns if name in data.variables}
     frame.columns = [f"{name} [{units[name]}]" if units.get(name) else str(name) for name in frame.columns]
     frame.to_csv(path, index=False, float_format="%.10g", lineterminator="\n")
-
-
-def whirl_name(direction: float) -> str:
-    """Whirl direction, from -1 to 1, in a word and a number."""
-    if abs(direction) < PLANAR:
-        return f"planar   {direction:+.2f}"
-    return f"{'forward' if direction > 0.0 else 'backward':8s} {direction:+.2f}"
-
-
-def shaft_column(name: str) -> str:
-    """A shaft as the head of a table's column names it."""
-    kind, comma, variant = name.partition(", ")
-    return _COLUMNS.get(kind, kind.replace(" ", "\n")) + (
-        f"\n{variant.replace('iterations', 'it.')}" if comma else ""
-    )
-
-
-def error_text(error: float, good: float) -> str:
-    """A relative error; green up to what is good."""
-    return f"[green]{error:.0e}[/green]" if error <= good else f"{error:.0e}"
