@@ -36,6 +36,7 @@ from orchestrator.results.result import Result, Stopwatch, Timing
 from orchestrator.results.validity import unresolved
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
+from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
 
 WORTH_A_THREAD = 4
@@ -161,9 +162,9 @@ class _TimeLoop:
     def __init__(self, case: Case, system: System, start: Start, timing: Timing) -> None:
         self._case, self._system, self._start, self._timing = case, system, start, timing
         scenario, train = case.scenario, case.train
-        # Steps end on the fracture where they are controlled; else the rotor takes it inside a step, exactly.
+        # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
         controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
-        events = (scenario.event.time,) if controlled and scenario.event is not None else ()
+        events = schedule_of(scenario, train).instants if controlled else ()
         self._course = Course(scenario.end, scenario.step, scenario.tolerance, events)
         stride = max(1, round(scenario.record.interval / scenario.step))
         self._recorder = Recorder(system, train.nodes, self._course.steps, stride)

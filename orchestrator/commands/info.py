@@ -14,8 +14,7 @@ def show(console: Console) -> None:
     scenarios = Table.grid(padding=(0, 2))
     for name in bundled_scenarios():
         scenario = load_scenario(name)
-        event = scenario.event
-        what = f"blade fracture at {event.wheel}, {event.time:g} s" if event is not None else "no event"
+        what = "; ".join(f"{event.text}, {event.time:g} s" for event in scenario.events) or "no event"
         scenarios.add_row(
             f"[bold]{name}[/bold]", scenario.title, f"train {scenario.train}, {scenario.end:g} s, {what}"
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +21,7 @@ from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
 from orchestrator.scenario.file import bundled_scenarios, load_with_train, read_train, scenario_toml
+from orchestrator.scenario.parameters import wheel_unbalances
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.linear.analysis import (
     DEFAULT_SIZE,
@@ -133,17 +134,7 @@ class LinearCase:
     @property
     def unbalance(self) -> NDArray[np.complex128]:
         """Nominal unbalance of each wheel, U exp(i phase) in kg m."""
-        settings, train = self.scenario.unbalance, self.train
-        if settings.grade is not None:
-            train = replace(train, balance_grade=settings.grade)
-        amounts = np.array(train.nominal_unbalance)
-        phases = np.array([wheel.unbalance_phase for wheel in self.train.wheels])
-        for index, wheel in enumerate(self.train.wheels):
-            if wheel.name in settings.at:
-                amounts[index], phases[index] = (
-                    settings.at[wheel.name].unbalance,
-                    settings.at[wheel.name].phase,
-                )
+        amounts, phases = np.array(wheel_unbalances(self.scenario, self.train)).T
         return np.asarray(amounts * np.exp(1j * phases))
 
     @property

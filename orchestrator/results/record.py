@@ -19,8 +19,10 @@ from fmus import port
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
 from orchestrator.outcome import Outcome
+from orchestrator.scenario.events import BladeLoss
 from orchestrator.scenario.file import scenario_toml
 from orchestrator.scenario.scenario import Scenario
+from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -166,10 +168,11 @@ def train_coordinates(scenario: Scenario, train: Train) -> dict[str, Any]:
 
 def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message: str) -> dict[str, Any]:
     """Attributes of the record: what was run, how, with which programs, and how it ended."""
+    schedule = schedule_of(scenario, train)
     attributes: dict[str, Any] = {
         "title": scenario.title,
         "train": train.name,
-        "speed": train.speed,
+        **schedule.attributes(),
         "coupling": scenario.coupling,
         "macro_step": scenario.step,
         **({} if scenario.tolerance is None else {"tolerance": scenario.tolerance}),
@@ -184,9 +187,10 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
     }
     if scenario.analysed_bearing is not None:
         attributes["analysed_bearing"] = scenario.analysed_bearing
-    if scenario.event is not None:
-        attributes["fracture_time"] = scenario.event.time
-        attributes["fracture_wheel"] = scenario.event.wheel
+    losses = [event for event in schedule.events if isinstance(event, BladeLoss)]
+    if losses:
+        attributes["fracture_time"] = losses[0].time
+        attributes["fracture_wheel"] = "; ".join(loss.wheel for loss in losses)
     return attributes
 
 

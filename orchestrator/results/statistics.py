@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator.results.windows import Phase, phases
+from orchestrator.results.windows import Phase, Window, phases
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +26,20 @@ def time_mean(time: NDArray[np.float64], values: NDArray[np.float64]) -> float:
     if time.size < 2 or time[-1] <= time[0]:
         return float(np.mean(values))
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+def window_mean(window: Window, time: NDArray[np.float64], values: NDArray[np.float64]) -> float:
+    """Mean over all of a window, whose ends may lie between two samples."""
+    inside = window.mask(time)
+    times, shown = time[inside], values[inside]
+    for end, place in ((window.start, 0), (window.end, times.size)):
+        # Between samples: in the record, but further from the samples inside than rounding.
+        between = time[0] < end < time[-1] and not np.isclose(time, end, rtol=0.0, atol=1e-9).any()
+        if between and times.size:
+            place = times.size if place else 0  # one more than before where the start was put in
+            times = np.insert(times, place, end)
+            shown = np.insert(shown, place, np.interp(end, time, values))
+    return time_mean(times, shown)
 
 
 def half_peak_to_peak(values: NDArray[np.float64]) -> float:
@@ -96,8 +110,7 @@ def contact_threshold(record: xr.Dataset, bearing: str, found: Sequence[Phase]) 
     The asperity law has a tail: between surfaces far apart it gives not zero but newtons.
     """
     time = record["time"].values
-    inside = found[0].mean.mask(time)
-    return CONTACT_SHARE * time_mean(time[inside], magnitude(record, "force", bearing)[inside])
+    return CONTACT_SHARE * window_mean(found[0].mean, time, magnitude(record, "force", bearing))
 
 
 def bearing_statistics(
@@ -126,7 +139,7 @@ def bearing_statistics(
     contact_peak = interval_extreme(record, "contact_force_max", bearing, contact)
 
     def mean_of(values: NDArray[np.float64]) -> float:
-        return time_mean(time[mean], values[mean])
+        return window_mean(phase.mean, time, values)
 
     def largest(name: str, samples: NDArray[np.float64]) -> float:
         extremes = interval_extreme(record, name, bearing, samples)
@@ -183,8 +196,8 @@ def analysed_bearing(record: xr.Dataset, named: str | None = None) -> str:
             raise ValueError(f"analysed bearing {named!r}: not in the record, which has {', '.join(names)}")
         return named
     time = record["time"].values
-    inside = phases(record)[-1].mean.mask(time)
-    loads = [time_mean(time[inside], magnitude(record, "force", name)[inside]) for name in names]
+    window = phases(record)[-1].mean
+    loads = [window_mean(window, time, magnitude(record, "force", name)) for name in names]
     return names[int(np.argmax(loads))]
 
 
@@ -214,13 +227,13 @@ class ShaftStatistics:
 def shaft_statistics(record: xr.Dataset, phase: Phase) -> ShaftStatistics:
     """Largest vibration amplitude and normal stress of the shaft in one phase."""
     time = np.asarray(record["time"].values, dtype=float)
-    mean, peak = phase.mean.mask(time), phase.peak.mask(time)
+    peak = phase.peak.mask(time)
     values: list[float] = []
     for name in ("vibration_amplitude", "normal_stress"):
         samples = np.asarray(record[f"{name}_max"].values, dtype=float)
         where = np.asarray(record[f"{name}_position"].values, dtype=float)[peak]
         worst = int(np.argmax(samples[peak]))
-        values += [time_mean(time[mean], samples[mean]), float(samples[peak][worst]), float(where[worst])]
+        values += [window_mean(phase.mean, time, samples), float(samples[peak][worst]), float(where[worst])]
     return ShaftStatistics(phase.name, *values)
 
 

@@ -25,7 +25,7 @@ from orchestrator.results.statistics import (
     defect_statistics,
     shaft_statistics,
 )
-from orchestrator.results.windows import Phase, fracture_time, phases
+from orchestrator.results.windows import Phase, instants, phases
 
 UNITS = {
     "force": "N",
@@ -70,7 +70,7 @@ class RunSummary:
     depth : dict of str
         Modelling depth by bearing.
     fracture_time : float or None
-        Instant of the event [s].
+        Instant of the first event [s].
     timing : Timing
         Wall time by part [s].
     peak_memory : int
@@ -195,7 +195,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         stepping=result.counts,
         coupling=str(record.attrs.get("coupling", "")),
         depth={name: str(depth) for name, depth in zip(names, depths, strict=True)},
-        fracture_time=fracture_time(record) if samples else None,
+        fracture_time=next(iter(instants(record)), None) if samples else None,
         timing=result.timing,
         peak_memory=peak_memory(),
         defect=defect_statistics(record),

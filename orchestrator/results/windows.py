@@ -1,26 +1,29 @@
 """Windows of a recorded run: where a mean is a mean and a maximum a maximum.
 
-A run has a *phase* before the event and one after it.  Means are taken over the part
-of a phase that is steady (the last revolutions before the fracture; from some time
-behind it, when the first transient has gone), largest values after the event over the
-whole phase.  The windows belong to every number, so they travel with it.
+A run has *phases*, parted by its events.  Means are taken over the part of a phase that is steady (the last
+revolutions before the first event; from some revolutions behind each event, when the first transient has
+gone) and over whole revolutions, largest values behind an event over the whole phase.  Windows count in
+revolutions of the run's schedule; they belong to every number, so they travel with it.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator.scenario.schedule import Schedule, from_attributes
+
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-BEFORE = 0.08
-"""Length of the window before the event [s]: two revolutions at 25 Hz."""
-SETTLE = 0.4
-"""Time behind the event after which means are taken [s]."""
+BEFORE = 2.0
+"""Revolutions of the window before the first event."""
+SETTLE = 10.0
+"""Revolutions behind an event after which means are taken."""
 _TOLERANCE = 1e-9  # s, far below any macro step: sample times are sums of steps
 
 
@@ -59,7 +62,7 @@ class Phase:
     Attributes
     ----------
     name : str
-        ``before``, ``after``, or ``steady`` in a run without event.
+        ``before``, ``after``, or ``steady`` in a run without event; ``after 1``, ``after 2`` behind several.
     mean : Window
         Where means and harmonic parts are taken.
     peak : Window
@@ -77,35 +80,29 @@ class Phase:
     note: str = ""
 
 
-def fracture_time(record: xr.Dataset) -> float | None:
-    """Instant of the event [s], None when the record holds none or ends before it."""
-    value = record.attrs.get("fracture_time")
+def instants(record: xr.Dataset) -> tuple[float, ...]:
+    """Instants of the events that the record reaches [s], ascending."""
     time = record["time"].values
-    if value is None or not np.isfinite(float(value)):
-        return None
-    inside = time.size > 0 and float(value) < time[-1] - _TOLERANCE
-    return float(value) if inside else None
+    if time.size == 0:
+        return ()
+    return tuple(at for at in from_attributes(record.attrs).instants if at < time[-1] - _TOLERANCE)
 
 
-def phases(record: xr.Dataset, *, before: float = BEFORE, settle: float = SETTLE) -> tuple[Phase, ...]:
+def phases(record: xr.Dataset) -> tuple[Phase, ...]:
     """Phases of a run with their windows.
 
     Parameters
     ----------
     record : xarray.Dataset
-        A recorded run; its attribute ``fracture_time`` is the event's instant.
-    before : float
-        Length of the window before the event [s].
-    settle : float
-        Time left to the transient behind the event [s].
+        A recorded run; its attributes tell its schedule.
 
     Returns
     -------
     tuple of Phase
         ``(before, after)``; ``(steady,)`` without event; ``(after,)`` when the event
-        comes at or before the first sample.  A phase shorter than its window is used as
-        it is, and when the run ends before the transient has had its time, the last
-        half behind the event serves for means; `Phase.note` says so.
+        comes at or before the first sample; ``(before, after 1, after 2)`` and so on.  A phase shorter
+        than its window is used as it is, and when it ends before the transient has had its time, its last
+        half serves for means; `Phase.note` says so.
 
     Raises
     ------
@@ -115,20 +112,42 @@ def phases(record: xr.Dataset, *, before: float = BEFORE, settle: float = SETTLE
     time = record["time"].values
     if time.size == 0:
         raise ValueError("the record holds no sample")
+    schedule = from_attributes(record.attrs)
     first, last = float(time[0]), float(time[-1])
-    event = fracture_time(record)
-    if event is None:
-        start = max(first, last - before)
-        return (Phase("steady", Window(start, last), Window(first, last), Window(first, last)),)
+    events = instants(record)
+    ends = (*events, last)
     found = []
-    if event > first + _TOLERANCE:
-        start = max(first, event - before)
-        note = "" if event - before >= first - _TOLERANCE else f"only {event - first:.3g} s recorded"
-        found.append(Phase("before", Window(start, event), Window(start, event), Window(first, event), note))
-    start, note = event + settle, ""
-    if last - start < settle / 2:
-        start = event + (last - event) / 2
-        note = f"the run ends {last - event:.3g} s after the event: the transient may not have decayed"
-    whole = Window(max(first, event), last)
-    found.append(Phase("after", Window(start, last), whole, whole, note))
+    if ends[0] > first + _TOLERANCE:
+        found.append(_undisturbed(schedule, first, ends[0], recorded_on=bool(events)))
+    for number, (event, end) in enumerate(itertools.pairwise(ends), 1):
+        name = "after" if len(events) == 1 else f"after {number}"
+        found.append(_disturbed(schedule, name, event, Window(max(first, event), end), end == last))
     return tuple(found)
+
+
+def _undisturbed(schedule: Schedule, first: float, end: float, *, recorded_on: bool) -> Phase:
+    """The phase before the first event, or the only one."""
+    asked = schedule.later(end, -BEFORE)
+    start = max(first, asked)
+    whole, mean = Window(first, end), Window(_whole(schedule, start, end), end)
+    if not recorded_on:
+        return Phase("steady", mean, whole, whole)
+    note = "" if asked >= first - _TOLERANCE else f"only {end - first:.3g} s recorded"
+    return Phase("before", mean, Window(start, end), whole, note)
+
+
+def _disturbed(schedule: Schedule, name: str, event: float, whole: Window, is_last: bool) -> Phase:
+    """A phase behind an event."""
+    start, note = schedule.later(event, SETTLE), ""
+    if schedule.revolutions(start, whole.end) < SETTLE / 2:
+        start = event + (whole.end - event) / 2
+        what = "the run ends" if is_last else "the next event comes"
+        note = f"{what} {whole.end - event:.3g} s after the event: the transient may not have decayed"
+    return Phase(name, Window(_whole(schedule, start, whole.end), whole.end), whole, whole, note)
+
+
+def _whole(schedule: Schedule, start: float, end: float) -> float:
+    """The start moved towards the end until whole revolutions lie between; left where not one fits."""
+    count = schedule.whole(start, end)
+    moved = schedule.later(end, -count)
+    return moved if count and moved > start + _TOLERANCE else start

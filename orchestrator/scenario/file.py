@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from orchestrator.errors import OrchestratorError, ScenarioError
 from orchestrator.scenario.problems import (
+    event_problems,
     file_problems,
     name_problems,
     shape_problems,
@@ -138,6 +139,12 @@ def _checked(
     """Return scenario and train of a file with overrides in place of its values, or raise all problems."""
     raw = replaced(toml.raw, overrides)
     problems: list[Problem] = []
+    alone = raw.pop("event", None)
+    single = alone is not None and "events" not in raw
+    if single:
+        raw["events"] = [alone]
+    elif alone is not None:
+        problems.append((("event",), "event: given beside events; allowed is one of them"))
     scenario = train = None
     try:
         if "folder" in raw:
@@ -156,11 +163,21 @@ def _checked(
     if train is not None and scenario is not None:
         problems += time_problems(scenario, train)
         problems += unbalance_problems(scenario, train)
+        problems += event_problems(scenario)
     if scenario is None or train is None or problems:
         # An override stands on no line.
-        places = (((), text) if _holds(overrides, at) else (at, text) for at, text in problems)
+        written = map(_of_single, problems) if single else problems
+        places = (((), text) if _holds(overrides, at) else (at, text) for at, text in written)
         raise ScenarioError(source, list(toml.located(places)))
     return scenario, train
+
+
+def _of_single(problem: Problem) -> Problem:
+    """A problem of the only event as the table ``[event]`` spells it."""
+    location, text = problem
+    if tuple(location[:2]) != ("events", 0):
+        return problem
+    return ("event", *location[2:]), "event" + text.removeprefix("events.0")
 
 
 def _holds(overrides: Mapping[str, Any], location: Location) -> bool:
@@ -185,7 +202,21 @@ def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, 
     A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.
     """
     fixed = {} if overrides.keys().isdisjoint(("step", "coupling")) else {"tolerance": None}
-    return _merged(raw, {**fixed, **overrides})
+    return _merged(_one_form(raw, overrides), {**fixed, **overrides})
+
+
+def _one_form(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """The file with its events in the form, ``event`` or ``events``, in which they are replaced."""
+    base = dict(raw)
+    if "events" in overrides:
+        base.pop("event", None)
+    elif "event" in overrides:
+        listed = base.get("events")
+        if overrides["event"] is None:
+            base.pop("events", None)
+        elif isinstance(listed, list) and len(listed) == 1:
+            base["event"] = base.pop("events")[0]
+    return base
 
 
 def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -204,7 +235,7 @@ def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 
 def _toml_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
     """Write scalars first, then tables: enough of TOML for a scenario."""
-    scalars = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
+    scalars = {key: value for key, value in table.items() if not isinstance(value, Mapping | list)}
     if path and scalars:
         yield f"\n[{'.'.join(_toml_text(part) for part in path)}]"
     for key, value in scalars.items():
@@ -212,6 +243,9 @@ def _toml_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str
     for key, value in table.items():
         if isinstance(value, Mapping):
             yield from _toml_lines(value, (*path, key))
+        for entry in value if isinstance(value, list) else ():
+            yield f"\n[[{key}]]"
+            yield from _toml_lines(entry, ())
 
 
 def _toml_text(text: str) -> str:

@@ -1,4 +1,4 @@
-"""From scenario and train to FMU parameters; the only place that knows both sides."""
+"""From scenario and train to FMU parameters, and nowhere else; an event names those that it sets itself."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from pathlib import Path
 
 from bearing_fmu.recipe import file_name as bearing_file
 from fmus import port
+from orchestrator.scenario.events import Values
 from orchestrator.scenario.scenario import FilmResolution, Scenario, is_fmu
 from rotor_fmu.train.train import BearingSeat, Train
-
-Values = dict[str, float | int | bool | str]
 
 
 def bearing_path(scenario: Scenario, bearing: str, fmus: Path) -> Path:
@@ -37,21 +36,28 @@ def rotor_parameters(scenario: Scenario, train: Train) -> Values:
     values: Values = {"reduction": scenario.reduction}
     if scenario.ledger:
         values["track_work"] = True
-    grade, event = scenario.unbalance.grade, scenario.event
-    if grade is not None:
-        train = replace(train, balance_grade=grade)
-    values["fracture.time"] = scenario.end if event is None else event.time
-    for index, (wheel, nominal) in enumerate(zip(train.wheels, train.nominal_unbalance, strict=True), 1):
-        unbalance, phase = nominal, wheel.unbalance_phase
-        override = scenario.unbalance.at.get(wheel.name)
-        if override is not None:
-            unbalance, phase = override.unbalance, override.phase
-        lost = event if event is not None and event.wheel == wheel.name else None
+    values["fracture.time"] = scenario.end
+    for index, (unbalance, phase) in enumerate(wheel_unbalances(scenario, train), 1):
         values[f"wheel[{index}].unbalance"] = unbalance
         values[f"wheel[{index}].unbalance_phase"] = phase
-        values[f"wheel[{index}].blade_unbalance"] = 0.0 if lost is None else lost.unbalance
-        values[f"wheel[{index}].blade_phase"] = 0.0 if lost is None else lost.phase
+        values[f"wheel[{index}].blade_unbalance"] = 0.0
+        values[f"wheel[{index}].blade_phase"] = 0.0
+    for event in scenario.events:
+        values |= event.parameters(train)
     return values
+
+
+def wheel_unbalances(scenario: Scenario, train: Train) -> list[tuple[float, float]]:
+    """Nominal unbalance of each wheel in kg m and its phase in rad: the train's, the grade's, or its own."""
+    settings = scenario.unbalance
+    if settings.grade is not None:
+        train = replace(train, balance_grade=settings.grade)
+    own = [
+        (nominal, wheel.unbalance_phase)
+        for wheel, nominal in zip(train.wheels, train.nominal_unbalance, strict=True)
+    ]
+    given = {name: (at.unbalance, at.phase) for name, at in settings.at.items()}
+    return [given.get(wheel.name, pair) for wheel, pair in zip(train.wheels, own, strict=True)]
 
 
 def bearing_parameters(seat: BearingSeat, film: FilmResolution) -> Values:

@@ -11,8 +11,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from orchestrator.scenario.events import KINDS, BladeLoss, Event, contradictions
 from orchestrator.scenario.scenario import Scenario, is_fmu
-from rotor_fmu.train.toml_source import Problem
+from rotor_fmu.train.toml_source import Location, Problem
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import choice, refusal, shown
 
@@ -67,26 +68,31 @@ def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[Problem]:
     if isinstance(analysed, str) and analysed not in bearings:
         text = unknown(analysed, "bearing", bearings)
         yield ("analysed_bearing",), f"analysed_bearing = {analysed!r}: {text}"
-    wheel = _table(raw, "event").get("wheel")
-    if isinstance(wheel, str) and wheel not in wheels:
-        yield ("event", "wheel"), f"event.wheel = {wheel!r}: {unknown(wheel, 'wheel', wheels)}"
+    events = raw.get("events")
+    for index, event in enumerate(events if isinstance(events, list) else ()):
+        wheel = event.get("wheel") if isinstance(event, dict) else None
+        if isinstance(wheel, str) and wheel not in wheels:
+            text = unknown(wheel, "wheel", wheels)
+            yield ("events", index, "wheel"), f"events.{index}.wheel = {wheel!r}: {text}"
 
 
 def unbalance_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
     """Yield unbalances that are more than the whole wheel has at its radius."""
-    given: list[tuple[tuple[str, ...], str, float]] = [
+    given: list[tuple[Location, str, float]] = [
         (("unbalance", "at", name), name, at.unbalance) for name, at in scenario.unbalance.at.items()
     ]
-    if scenario.event is not None:
-        given.append((("event",), scenario.event.wheel, scenario.event.unbalance))
+    for index, event in enumerate(scenario.events):
+        if isinstance(event, BladeLoss):
+            given.append((("events", index), event.wheel, event.unbalance))
     wheels = {wheel.name: wheel for wheel in train.wheels}
     for location, name, unbalance in given:
         wheel = wheels.get(name)
         most = 0.5 * wheel.mass * wheel.mean_diameter if wheel else 0.0
         if 0.0 < most < unbalance:
+            where = ".".join(map(str, location))
             yield (
                 (*location, "unbalance"),
-                f"{'.'.join(location)}.unbalance = {unbalance!r}; allowed is at most {most:.4g} kg m, all of "
+                f"{where}.unbalance = {unbalance!r}; allowed is at most {most:.4g} kg m, all of "
                 f"wheel {name!r} at its mean radius; did you give kg mm?",
             )
 
@@ -114,12 +120,13 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
         )
     if scenario.step > scenario.end:
         yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
-    if scenario.event is not None and scenario.event.time >= scenario.end:
-        yield (
-            ("event", "time"),
-            f"event.time = {scenario.event.time!r}; allowed is a time before the end, {scenario.end!r} s "
-            "(take out [event] for a run without blade fracture)",
-        )
+    for index, event in enumerate(scenario.events):
+        if event.time >= scenario.end:
+            yield (
+                ("events", index, "time"),
+                f"events.{index}.time = {event.time!r}; allowed is a time before the end, {scenario.end!r} s "
+                "(take out the event for a run without it)",
+            )
     size = record_size(scenario, train)
     memory = _memory()
     if size > memory:
@@ -129,6 +136,13 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
             f"end = {scenario.end!r}; its record takes {size / 1e9:.3g} GB, and this machine has "
             f"{memory / 1e9:.3g}; allowed is an earlier end, or a record.interval from {interval:.2g} s on",
         )
+
+
+def event_problems(scenario: Scenario) -> Iterator[Problem]:
+    """Yield events that exclude one another."""
+    for index, key, reason in contradictions(scenario.events):
+        value = getattr(scenario.events[index], key)
+        yield ("events", index, key), f"events.{index}.{key} = {value!r}; {reason}"
 
 
 def record_size(scenario: Scenario, train: Train) -> float:
@@ -155,6 +169,8 @@ def file_problems(raw: Mapping[str, Any], folder: Path) -> Iterator[Problem]:
 def _literals(path: list[str]) -> tuple[str, ...]:
     """What is allowed where a literal is expected."""
     model, key = _owner(path)
+    if model is not None and issubclass(model, Event) and key == "kind":
+        return tuple(KINDS)
     return typing.get_args(model.model_fields[key].annotation) if model else ()
 
 
@@ -170,27 +186,32 @@ def _table(raw: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 
 def _keys_at(path: list[str]) -> list[str]:
-    model: type[BaseModel] | None = Scenario
+    models: tuple[type[BaseModel], ...] = (Scenario,)
     if path:
         owner, key = _owner(path)
-        model = _model_of(owner.model_fields[key].annotation) if owner else None
-    return [k for k, field in model.model_fields.items() if not field.exclude] if model else []
+        models = _models_of(owner.model_fields[key].annotation) if owner else ()
+    return list(dict.fromkeys(k for m in models for k, field in m.model_fields.items() if not field.exclude))
 
 
 def _owner(path: list[str]) -> tuple[type[BaseModel] | None, str]:
     """Return the model that holds the last key of `path` that is a field, and that key."""
-    model: type[BaseModel] | None = Scenario
-    owner, last = model, path[0]
+    models: tuple[type[BaseModel], ...] = (Scenario,)
+    owner: type[BaseModel] | None = Scenario
+    last = path[0]
     for key in path:
-        if model is None or key not in model.model_fields:
-            continue  # the name of an entry of a table
-        owner, last = model, key
-        model = _model_of(model.model_fields[key].annotation)
+        holder = next((model for model in models if key in model.model_fields), None)
+        if holder is None:
+            continue  # the name of an entry of a table, or its place in a list
+        owner, last = holder, key
+        models = _models_of(holder.model_fields[key].annotation)
     return owner, last
 
 
-def _model_of(annotation: Any) -> type[BaseModel] | None:
-    for candidate in (annotation, *typing.get_args(annotation)):
-        if isinstance(candidate, type) and issubclass(candidate, BaseModel):
-            return candidate
-    return None
+def _models_of(annotation: Any) -> tuple[type[BaseModel], ...]:
+    """The models that a value of this annotation may be of, or have as its entries."""
+    if isinstance(annotation, type) and issubclass(annotation, Event):
+        return tuple(KINDS.values())
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return (annotation,)
+    found = (_models_of(argument) for argument in typing.get_args(annotation))
+    return next((models for models in found if models), ())

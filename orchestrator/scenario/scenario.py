@@ -10,11 +10,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, PlainValidator
+from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from bearing_fmu import depths
 from fmus import port
+from orchestrator.scenario.events import AnyEvent
+from orchestrator.scenario.fields import Angle, Grade, Interval, Model, NotNegative
 
 Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 CouplingName = Literal["linear-implicit", "newton", "iqn-ils", "gauss-seidel", "jacobi"]
@@ -44,22 +46,8 @@ Depth = Annotated[str, PlainValidator(_check_depth)]
 DepthOrFmu = Annotated[str, PlainValidator(_check_depth_or_fmu)]
 """A depth, or the path of an FMU with the port of a bearing."""
 
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-Interval = Annotated[float, Field(ge=1e-9, le=1e6, allow_inf_nan=False, description="s")]
-NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-Angle = Annotated[
-    float, Field(ge=-6.3, le=6.3, allow_inf_nan=False, description="rad; did you give degrees?")
-]
-Grade = Annotated[float | None, Field(ge=0.0, le=0.1, allow_inf_nan=False, description="m/s; G2.5 is 2.5e-3")]
 
-
-class _Model(BaseModel):
-    """Immutable; an unknown key is an error, and true or "1" are no numbers."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-
-class WheelUnbalance(_Model):
+class WheelUnbalance(Model):
     """Nominal unbalance of one wheel in place of what the balance grade gives.
 
     Attributes
@@ -74,7 +62,7 @@ class WheelUnbalance(_Model):
     phase: Angle = 0.0
 
 
-class Unbalance(_Model):
+class Unbalance(Model):
     """Nominal unbalance of the train.
 
     Attributes
@@ -86,28 +74,7 @@ class Unbalance(_Model):
     """
 
     grade: Grade = None
-    at: dict[str, WheelUnbalance] = {}
-
-
-class BladeFracture(_Model):
-    """A blade breaks off: the unbalance of its wheel jumps.
-
-    Attributes
-    ----------
-    wheel : str
-        Name of the wheel.
-    unbalance : float
-        Mass of the lost part times its radius, in kg m.
-    phase : float
-        Angle of the added unbalance at t = 0, in rad.
-    time : float
-        Instant in s; it need not fall on a macro step.
-    """
-
-    wheel: str
-    unbalance: Positive
-    phase: Angle = 0.0
-    time: NotNegative
+    at: dict[str, WheelUnbalance] = {}  # noqa: RUF012 (pydantic copies it)
 
 
 def _whole(key: str) -> Any:
@@ -116,7 +83,7 @@ def _whole(key: str) -> Any:
     return Field(int(variable.start or 0), ge=variable.minimum, le=variable.maximum)
 
 
-class FilmResolution(_Model):
+class FilmResolution(Model):
     """Resolution of the films that solve the Reynolds equation.
 
     Attributes
@@ -131,7 +98,7 @@ class FilmResolution(_Model):
     rows: int = _whole("rows")
 
 
-class RecordSettings(_Model):
+class RecordSettings(Model):
     """What is kept.
 
     Attributes
@@ -144,7 +111,7 @@ class RecordSettings(_Model):
     interval: Interval = 5e-4
 
 
-class Scenario(_Model):
+class Scenario(Model):
     """One run.
 
     Attributes
@@ -162,8 +129,8 @@ class Scenario(_Model):
         bearing, relative to the scenario's file.
     unbalance : Unbalance
         Nominal unbalance.
-    event : BladeFracture or None
-        The blade fracture, if there is one.
+    events : tuple of Event
+        What happens, `orchestrator.scenario.events`. A file may have one as the table ``[event]``.
     end : float
         End time in s.
     step : float
@@ -193,9 +160,9 @@ class Scenario(_Model):
     train: str
     reduction: Reduction = "irs"
     depth: Depth = depths.names()[0]
-    depth_at: dict[str, DepthOrFmu] = {}
+    depth_at: dict[str, DepthOrFmu] = {}  # noqa: RUF012
     unbalance: Unbalance = Unbalance()
-    event: BladeFracture | None = None
+    events: Annotated[tuple[AnyEvent, ...], Field(strict=False)] = ()
     end: Interval
     step: Interval = 1e-4
     tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None

@@ -84,7 +84,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "depth": common,
         "depth_at": {name: depth for name, depth in found.items() if depth != common},
         "unbalance": _unbalance(contents),
-        "event": _event(contents, end),
+        "events": _events(contents, end),
         "end": end,
         "step": overrides.get("step") or structure.step or DEFAULT_STEP,
         "coupling": coupling,
@@ -158,12 +158,17 @@ def _unbalance(contents: Contents) -> dict[str, Any]:
     }
 
 
-def _event(contents: Contents, end: float) -> dict[str, Any] | None:
-    """The fracture before the end; of several wheels that with the largest unbalance."""
-    lost, phases = (_wheel_values(contents, f"blade_{key}") for key in ("unbalance", "phase"))
+def _events(contents: Contents, end: float) -> list[dict[str, Any]]:
+    """The blades that break before the end."""
     time = float(value_of(contents, contents.rotor, "fracture.time"))
-    largest = max(range(len(lost)), key=lambda j: abs(lost[j]), default=-1)
-    if not (largest >= 0 and lost[largest] != 0.0 and time < end):
-        return None
-    wheel = contents.train.wheels[largest].name
-    return {"wheel": wheel, "unbalance": lost[largest], "phase": phases[largest], "time": time}
+    lost = zip(
+        contents.train.wheels,
+        _wheel_values(contents, "blade_unbalance"),
+        _wheel_values(contents, "blade_phase"),
+        strict=True,
+    )
+    return [
+        {"wheel": wheel.name, "unbalance": unbalance, "phase": phase, "time": time}
+        for wheel, unbalance, phase in lost
+        if unbalance > 0.0 and time < end
+    ]

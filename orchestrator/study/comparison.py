@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
+from orchestrator.scenario.events import BladeLoss
 from orchestrator.study.children import Ended
 from orchestrator.study.depth_run import DepthRun, read_run
 
@@ -115,7 +116,7 @@ def gather(
         train=train.name,
         settings=settings_of(scenario),
         seat=next(seat for seat in train.bearings if seat.name == bearing),
-        blade_force=0.0 if scenario.event is None else scenario.event.unbalance * train.speed**2,
+        blade_force=sum(e.unbalance for e in scenario.events if isinstance(e, BladeLoss)) * train.speed**2,
         runs=runs,
         ended=ended,
     )

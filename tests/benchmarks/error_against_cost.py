@@ -114,8 +114,9 @@ def measure(source: str) -> None:
     own, coupling_rows = couplings(case, exact)
     whole, holistic_rows = holistic(case, exact)
     scenario = case.scenario()
+    lost = scenario.events[0].time
     show(
-        f"b. Error against cost: scenario {source}, {scenario.end} s, blade off at {scenario.event.time} s, "
+        f"b. Error against cost: scenario {source}, {scenario.end} s, blade off at {lost} s, "
         f"{exact.forces.shape[1]} bearings, {len(exact.states[0])} states",
         COLUMNS,
         [*coupling_rows, *holistic_rows],

@@ -164,7 +164,7 @@ def deformed_train(records: Sequence[xr.Dataset], train: Train | None = None) ->
         13.0,
         1.4 + (1.3 + 2 * PANEL_WIDTH * scales.height) * len(records),
         "Deformed train and bearing forces at the worst instant",
-        style.run_caption(records[0]) if len(records) == 1 else str(records[0].attrs.get("title", "")),
+        style.caption(records),
     )
     grid = figure.subplots(2 * len(records), 1, squeeze=False)[:, 0]
     for row, (record, index) in enumerate(zip(records, instants, strict=True)):

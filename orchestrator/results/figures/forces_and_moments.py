@@ -9,7 +9,6 @@ import numpy as np
 
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
-from orchestrator.results.windows import phases
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,14 +42,8 @@ def _whole(
 ) -> None:
     curve = _curve(record, name, bearing)
     panels.draw_curve(axes, view, curve, quantity)
-    found = phases(record)
-    means = []
-    for phase in found:
-        inside = phase.mean.mask(curve.time)
-        means.append(statistics.time_mean(curve.time[inside], curve.samples[inside]))
-    panels.draw_means(axes, view, found, means, quantity)
-    parts = [f"{phase.name} {quantity.text(mean)}" for phase, mean in zip(found, means, strict=True)]
-    axes.set_title(f"{prefix}mean {', '.join(parts)}", loc="left", fontsize=style.FONT)
+    means = panels.draw_means(axes, view, record, curve.samples, quantity)
+    axes.set_title(prefix + means, loc="left", fontsize=style.FONT)
     if curve.extremes is None or curve.extremes.max() <= 0:
         axes.text(
             0.03,
@@ -85,7 +78,7 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
         4.6 * columns if columns > 2 else 11.0,
         6.6,
         f"Bearing force and moment, {bearing}",
-        style.run_caption(records[0]) if len(records) == 1 else str(records[0].attrs.get("title", "")),
+        style.caption(records),
     )
     ratios = [1.4] * len(records) + [1.0]
     grid = figure.subplots(2, columns, sharey="row", squeeze=False, width_ratios=ratios)
@@ -104,8 +97,8 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
                 style.row_prefix(records, record, bearing),
             )
             panels.draw_curve(grid[row, -1], near, _curve(record, name, bearing), quantity)
-            panels.draw_event(grid[row, column], whole, record)
-        panels.draw_event(grid[row, -1], near, records[0], named=False)
+            panels.draw_events(grid[row, column], whole, record)
+        panels.draw_events(grid[row, -1], near, records[0], named=False)
         panels.scale_panels(list(grid[row]))
         grid[row, 0].set_ylabel(quantity.axis)
         for column, axes in enumerate(grid[row]):

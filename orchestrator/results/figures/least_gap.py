@@ -114,7 +114,7 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         12.0,
         1.6 + 3.0 * rows,
         f"Least gap, {bearing}",
-        style.run_caption(records[0]) if rows == 1 else str(records[0].attrs.get("title", "")),
+        style.caption(records),
     )
     grid = figure.subplots(rows, 2, sharey="col", sharex="col", squeeze=False, width_ratios=[1.5, 1.0])
     views = (panels.whole_run(records), panels.close_up(records))
@@ -124,7 +124,7 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
             for curve in _curves(record, bearing):
                 panels.draw_curve(axes, view, curve, quantities.GAP)
             draw_contact(axes, view, record, bearing)
-            panels.draw_event(axes, view, record, named=column == 0)
+            panels.draw_events(axes, view, record, named=column == 0)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == rows - 1)
         grid[row, 0].set_ylabel(quantities.GAP.axis)

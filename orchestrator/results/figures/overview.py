@@ -39,7 +39,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
         12.0,
         1.8 + 0.95 * len(names),
         "All bearings: force and least gap",
-        style.run_caption(records[0]) if len(records) == 1 else str(records[0].attrs.get("title", "")),
+        style.caption(records),
     )
     grid = figure.subplots(len(names), 2, sharex=True, sharey="col", squeeze=False)
     for row, name in enumerate(names):
@@ -58,7 +58,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
                 panels.draw_curve(axes, view, curve, quantity)
             draw_contact(grid[row, 1], view, record, name, height=0.08)
         for axes in grid[row]:
-            panels.draw_event(axes, view, records[0], named=False)
+            panels.draw_events(axes, view, records[0], named=False)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == len(names) - 1)
         grid[row, 0].set_ylabel(

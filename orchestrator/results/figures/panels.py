@@ -10,7 +10,9 @@ import numpy as np
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import style
-from orchestrator.results.windows import Phase, fracture_time
+from orchestrator.results.statistics import window_mean
+from orchestrator.results.windows import instants, phases
+from orchestrator.scenario.schedule import from_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,7 +24,6 @@ if TYPE_CHECKING:
 BEFORE_REVOLUTIONS = 2.0
 AFTER_REVOLUTIONS = 6.0
 _LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
-_DEFAULT_SPAN = 0.04  # s of a revolution at 25 Hz, for records that do not tell their speed
 
 
 @dataclass(frozen=True)
@@ -88,17 +89,16 @@ def whole_run(records: Sequence[xr.Dataset]) -> View:
 
 
 def close_up(records: Sequence[xr.Dataset]) -> View:
-    """The view of a few revolutions around the event; of the last ones when there is none."""
+    """The view of a few revolutions around the first event; of the last ones when there is none."""
     whole = whole_run(records)
-    speed = abs(float(records[0].attrs.get("speed", 0.0)))
-    revolution = 2 * np.pi / speed if speed > 0 else _DEFAULT_SPAN
-    event = fracture_time(records[0])
-    if event is None:
-        start = max(whole.start, whole.end - AFTER_REVOLUTIONS * revolution)
+    schedule, reached = from_attributes(records[0].attrs), instants(records[0])
+    if not reached:
+        start = max(whole.start, schedule.later(whole.end, -AFTER_REVOLUTIONS))
         return View(start, whole.end, whole.end, 1e3, "time before the end [ms]")
-    start = max(whole.start, event - BEFORE_REVOLUTIONS * revolution)
-    end = min(whole.end, event + AFTER_REVOLUTIONS * revolution)
-    return View(start, end, event, 1e3, "time after the fracture [ms]")
+    event, noun = reached[0], schedule.events[0].noun
+    start = max(whole.start, schedule.later(event, -BEFORE_REVOLUTIONS))
+    end = min(whole.end, schedule.later(event, AFTER_REVOLUTIONS))
+    return View(start, end, event, 1e3, f"time after the {noun} [ms]")
 
 
 def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quantity) -> None:
@@ -119,32 +119,37 @@ def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quanti
         )
 
 
-def draw_event(axes: Axes, view: View, record: xr.Dataset, *, named: bool = True) -> None:
-    """Mark the blade fracture."""
-    event = fracture_time(record)
-    if event is None or not view.start <= event <= view.end:
-        return
-    shown = view.shown(event)
-    axes.axvline(shown, color=style.EVENT, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1.5)
-    if named:
-        axes.annotate(
-            "blade fracture",
-            (shown, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(-3, -2),
-            textcoords="offset points",
-            ha="right",
-            va="top",
-            fontsize=style.FONT - 1.5,
-            color=style.EVENT,
-        )
+def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = True) -> None:
+    """Mark the events."""
+    schedule = from_attributes(record.attrs)
+    for event in instants(record):
+        if not view.start <= event <= view.end:
+            continue
+        shown = view.shown(event)
+        axes.axvline(shown, color=style.EVENT, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1.5)
+        if named:
+            labels = dict.fromkeys(one.label for one in schedule.events if one.time == event)
+            axes.annotate(
+                ", ".join(labels),
+                (shown, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(-3, -2),
+                textcoords="offset points",
+                ha="right",
+                va="top",
+                fontsize=style.FONT - 1.5,
+                color=style.EVENT,
+            )
 
 
 def draw_means(
-    axes: Axes, view: View, found: Sequence[Phase], values: Sequence[float], quantity: quantities.Quantity
-) -> None:
-    """Draw the mean of each phase over the window from which it was taken."""
-    for phase, value in zip(found, values, strict=True):
+    axes: Axes, view: View, record: xr.Dataset, samples: NDArray[np.float64], quantity: quantities.Quantity
+) -> str:
+    """Draw the mean of each phase over the window from which it was taken; return the means in words."""
+    time, parts = np.asarray(record["time"].values, dtype=float), []
+    for phase in phases(record):
+        value = window_mean(phase.mean, time, samples)
+        parts.append(f"{phase.name} {quantity.text(value)}")
         start, end = max(phase.mean.start, view.start), min(phase.mean.end, view.end)
         if end > start:
             axes.plot(
@@ -156,6 +161,7 @@ def draw_means(
                 label="mean in its window",
                 zorder=4,
             )
+    return f"mean {', '.join(parts)}"
 
 
 def mark(

@@ -1,4 +1,4 @@
-"""Largest value along the shaft over time: what the figures of amplitude and stress share."""
+"""Largest vibration amplitude and normal stress in the shaft over time (Figures 8 and 9 of the paper)."""
 
 from __future__ import annotations
 
@@ -9,15 +9,24 @@ import numpy as np
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import panels, style
-from orchestrator.results.statistics import time_mean
-from orchestrator.results.windows import phases
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
 
-def shaft_maximum(
+def vibration_amplitude(records: Sequence[xr.Dataset]) -> Figure:
+    """Draw the largest vibration amplitude along the shaft, from the static line, over time."""
+    title = "Largest vibration amplitude in the shaft"
+    return _shaft_maximum(records, "vibration_amplitude", quantities.AMPLITUDE, title)
+
+
+def normal_stress(records: Sequence[xr.Dataset]) -> Figure:
+    """Draw the largest normal stress from bending along the shaft over time."""
+    return _shaft_maximum(records, "normal_stress", quantities.STRESS, "Largest normal stress in the shaft")
+
+
+def _shaft_maximum(
     records: Sequence[xr.Dataset], name: str, quantity: quantities.Quantity, title: str
 ) -> Figure:
     """Draw ``<name>_max`` over time, one row a run, the close-ups of all runs to the right.
@@ -38,7 +47,7 @@ def shaft_maximum(
         12.0,
         1.8 + 2.6 * rows,
         title,
-        style.run_caption(records[0]) if rows == 1 else str(records[0].attrs.get("title", "")),
+        style.caption(records),
     )
     grid = figure.subplots(rows, 2, sharey=True, sharex="col", squeeze=False, width_ratios=[1.5, 1.0])
     whole, near = panels.whole_run(records), panels.close_up(records)
@@ -51,21 +60,15 @@ def shaft_maximum(
         left, right = grid[row]
         for axes, view in ((left, whole), (right, near)):
             panels.draw_curve(axes, view, curve, quantity)
-            panels.draw_event(axes, view, record, named=axes is left)
+            panels.draw_events(axes, view, record, named=axes is left)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == rows - 1)
-        found = phases(record)
-        means = []
-        for phase in found:
-            inside = phase.mean.mask(time)
-            means.append(time_mean(time[inside], samples[inside]))
-        panels.draw_means(left, whole, found, means, quantity)
+        means = panels.draw_means(left, whole, record, samples, quantity)
         worst = int(np.argmax(samples))
         panels.mark(left, whole, float(time[worst]), float(samples[worst]), quantity)
-        parts = [f"{phase.name} {quantity.text(mean)}" for phase, mean in zip(found, means, strict=True)]
         where = float(record[f"{name}_position"].values[worst])
         left.set_title(
-            f"{style.row_prefix(records, record)}mean {', '.join(parts)}; largest at z = {where:.1f} m",
+            f"{style.row_prefix(records, record)}{means}; largest at z = {where:.1f} m",
             loc="left",
             fontsize=style.FONT,
         )

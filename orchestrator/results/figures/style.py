@@ -115,6 +115,11 @@ def run_caption(record: xr.Dataset) -> str:
     return "  ·  ".join(part for part in parts if part)
 
 
+def caption(records: Sequence[xr.Dataset]) -> str:
+    """The run that a figure shows, or what its runs have in common."""
+    return run_caption(records[0]) if len(records) == 1 else str(records[0].attrs.get("title", ""))
+
+
 def new_figure(width: float, height: float, title: str, caption: str) -> Figure:
     """An empty figure with its headline and the run it shows; sizes in inches."""
     figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")

@@ -11,9 +11,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from orchestrator.results.figures.deformed_train import deformed_train
 from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
-from orchestrator.results.figures.normal_stress import normal_stress
 from orchestrator.results.figures.overview import overview
-from orchestrator.results.figures.vibration_amplitude import vibration_amplitude
+from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -210,7 +210,7 @@ def test_the_scenario_in_the_record_is_the_scenario_that_ran(finished, tmp_path)
     (tmp_path / "again.toml").write_text(finished.record.attrs["scenario"])
     toy_scenario(tmp_path)
     again = load_scenario(tmp_path / "again.toml")
-    assert again.event.unbalance == 0.1
+    assert again.events[0].unbalance == 0.1
     assert again.step == 1e-3
 
 

@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import xarray as xr
 
+from orchestrator.scenario.events import BladeLoss, to_json
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 
 SPEED = 2 * np.pi * 25.0
@@ -145,6 +146,8 @@ def record(
     }
     if fracture is not None:
         attributes["fracture_time"] = fracture
+        loss = BladeLoss(wheel="LP1-2", unbalance=265.0, time=fracture)
+        attributes["events"] = to_json([loss])
     return xr.Dataset(
         variables,
         coords={

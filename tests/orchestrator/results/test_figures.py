@@ -14,10 +14,9 @@ from orchestrator.results.figures.deformation import dynamic_deflection, worst_i
 from orchestrator.results.figures.deformed_train import deformed_train
 from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
-from orchestrator.results.figures.normal_stress import normal_stress
 from orchestrator.results.figures.overview import overview
+from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
 from orchestrator.results.figures.spread import spread
-from orchestrator.results.figures.vibration_amplitude import vibration_amplitude
 from orchestrator.results.figures.write import write_figures
 from tests.orchestrator.results import synthetic_record
 

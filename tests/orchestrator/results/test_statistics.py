@@ -5,13 +5,14 @@ import pytest
 import xarray as xr
 
 from orchestrator.results import statistics, windows
+from orchestrator.scenario.events import BladeLoss, to_json
 from tests.orchestrator.results import synthetic_record
 
 MEAN, SWING = 1.8e6, 0.3e6
 
 
-def one_bearing(time, force, *, gap=None, contact=None, fracture=None, **more):
-    """A record of one bearing with the force in y."""
+def one_bearing(time, force, *, gap=None, contact=None, fracture=None, hertz=25.0, **more):
+    """A record of one bearing with the force in y; `fracture` may be one instant or several."""
     time = np.asarray(time, dtype=float)
     zero = np.zeros_like(time)
     gap = zero + 1e-4 if gap is None else gap
@@ -26,7 +27,9 @@ def one_bearing(time, force, *, gap=None, contact=None, fracture=None, **more):
         "sommerfeld": (scalar, (force / MEAN * 4.3)[:, None]),
         **{name: (scalar, values[:, None]) for name, values in more.items()},
     }
-    attributes = {} if fracture is None else {"fracture_time": fracture}
+    instants = () if fracture is None else np.atleast_1d(fracture).tolist()
+    losses = [BladeLoss(wheel="wheel", unbalance=1.0, time=at) for at in instants]
+    attributes = {"speed": 2.0 * np.pi * hertz, "events": to_json(losses)}
     coordinates = {"time": time, "bearing": ["A"], "axis": ["x", "y"]}
     return xr.Dataset(variables, coords=coordinates, attrs=attributes)
 
@@ -43,14 +46,41 @@ def test_windows_of_a_full_run():
     assert not before.note and not after.note
 
 
-def test_windows_can_be_chosen():
-    time = np.arange(20001) * 1e-4
-    before, after = windows.phases(one_bearing(time, time, fracture=1.0), before=0.2, settle=0.1)
-    assert before.mean.length == pytest.approx(0.2)
-    assert after.mean.start == pytest.approx(1.1)
+@pytest.mark.parametrize("hertz", [25.0, 37.0, 50.0])
+def test_means_are_over_whole_revolutions_at_any_speed(hertz):
+    """A mean over the fixed 80 ms and 0.6 s of 25 Hz, or between samples only, is off at 37 Hz."""
+    time = np.arange(4001) * 5e-4
+    wave = np.sin(2 * np.pi * hertz * time + 1.2)
+    record = one_bearing(time, MEAN + SWING * wave, fracture=1.0, hertz=hertz)
+    before, after = windows.phases(record)
+    assert before.mean.length * hertz == pytest.approx(2.0, abs=1e-9)
+    assert after.mean.length * hertz == pytest.approx(np.floor(hertz - 10.0 + 1e-6), abs=1e-9)
+    assert after.mean.start >= 1.0 + 10.0 / hertz - 1e-9
+    for phase in (before, after):
+        found = statistics.bearing_statistics(record, "A", phase, contact_from=1.0)
+        assert found.force_mean == pytest.approx(MEAN, abs=3e-4 * SWING)
+    fixed = windows.Window(0.92, 1.0)
+    off = statistics.window_mean(fixed, time, MEAN + SWING * wave) - MEAN
+    assert (abs(off) > 1e-2 * SWING) == (hertz == 37.0)
 
 
-@pytest.mark.parametrize("fracture", [None, 5.0, 2.0, np.nan])
+def test_windows_at_25_hertz_are_the_decimal_numbers_to_the_bit():
+    time = np.arange(4001) * 5e-4
+    before, after = windows.phases(one_bearing(time, time, fracture=1.0))
+    assert (before.mean.start, after.mean.start) == (1.0 - 0.08, 1.0 + 0.4)
+
+
+def test_there_is_a_phase_between_any_two_events():
+    time = np.arange(4001) * 5e-4
+    before, first, second = windows.phases(one_bearing(time, time, fracture=[0.4, 0.9]))
+    assert [phase.name for phase in (before, first, second)] == ["before", "after 1", "after 2"]
+    assert [phase.span for phase in (before, first)] == [windows.Window(0.0, 0.4), windows.Window(0.4, 0.9)]
+    assert second.span == windows.Window(0.9, 2.0)
+    assert "the next event comes 0.5 s after" in first.note and not second.note
+    assert first.mean.length * 25.0 == pytest.approx(6.0)
+
+
+@pytest.mark.parametrize("fracture", [None, 5.0, 2.0])
 def test_a_run_without_event_has_one_steady_phase(fracture):
     time = np.arange(2001) * 1e-3
     (steady,) = windows.phases(one_bearing(time, time, fracture=fracture))

@@ -2,10 +2,12 @@
 
 import tomllib
 from dataclasses import replace
+from typing import ClassVar, Literal
 
 import pytest
 
 from orchestrator.errors import ScenarioError
+from orchestrator.scenario.events import KINDS, Event
 from orchestrator.scenario.file import (
     bundled_scenarios,
     load_scenario,
@@ -14,6 +16,7 @@ from orchestrator.scenario.file import (
     with_overrides,
 )
 from orchestrator.scenario.parameters import rotor_parameters
+from orchestrator.scenario.schedule import from_attributes, schedule_of
 
 GOOD = """
 title = "test"
@@ -51,14 +54,14 @@ def test_the_paper_scenario_is_the_blade_fracture_on_the_turbine_train():
     scenario = load_scenario("paper")
     train = train_of(scenario)
     assert (len(train.shoulders), len(train.bearings), train.length) == (278, 11, pytest.approx(68.0))
-    assert (scenario.end, scenario.event.time, scenario.depth) == (2.0, 1.0, "v1")
+    assert (scenario.end, scenario.events[0].time, scenario.depth) == (2.0, 1.0, "v1")
 
 
 def test_defaults(scenario_file):
     scenario = load_scenario(scenario_file(GOOD))
     assert scenario.coupling == "linear-implicit"
     assert scenario.reduction == "irs"
-    assert scenario.event is None
+    assert not scenario.events
     assert scenario.depth_of("front") == "v1"
 
 
@@ -93,7 +96,7 @@ def test_every_problem_is_reported_at_once(scenario_file):
         "line 12: unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",
         "line 15: event.unbalance = 'much'; allowed is a number",
         "line 13: event.time: missing; it must be given",
-        "line 16: event.when: unknown key; did you mean 'wheel'? allowed are wheel, unbalance, phase",
+        "line 16: event.when: unknown key; did you mean 'wheel'? allowed are kind, time, wheel, unbal",
         "line 18: film.columns = 8; allowed is a number of at least 16",
         "line 9: depth_at.frnt: no such bearing; did you mean 'front'? allowed are front, rear",
         "line 12: unbalance.at.wheel-7: no such wheel; did you mean 'wheel-",
@@ -131,9 +134,9 @@ def test_overrides_merge_key_by_key_and_take_out(scenario_file):
     path = scenario_file(text)
     scenario = load_scenario(path, {"depth": "v3", "depth_at": {"rear": "v1"}, "event": {"time": 0.15}})
     assert scenario.depth_at == {"front": "v2", "rear": "v1"}
-    assert (scenario.depth, scenario.event.time, scenario.event.unbalance) == ("v3", 0.15, 1.0)
+    assert (scenario.depth, scenario.events[0].time, scenario.events[0].unbalance) == ("v3", 0.15, 1.0)
     calm = with_overrides(scenario, {"event": None, "end": 0.1})
-    assert calm.event is None
+    assert not calm.events
     assert calm.depth_at == scenario.depth_at
     assert calm.folder == scenario.folder
     with pytest.raises(ScenarioError, match="end = 0; allowed"):
@@ -180,3 +183,83 @@ def test_a_balance_grade_replaces_that_of_the_train_also_where_it_is_zero(scenar
     for own in (train, replace(train, balance_grade=0.0)):
         values = rotor_parameters(scenario, own)
         assert [values[f"wheel[{j}].unbalance"] for j in (1, 2, 3)] == list(expected)
+
+
+LOSSES = """
+[[events]]
+wheel = "wheel-1"
+unbalance = 0.1
+time = 0.1
+[[events]]
+kind = "blade-loss"
+wheel = "wheel-3"
+unbalance = 0.2
+phase = 1.0
+time = 0.1
+"""
+
+
+def test_events_are_a_list_and_one_may_stand_alone(scenario_file):
+    several = load_scenario(scenario_file(GOOD + LOSSES))
+    assert [(event.kind, event.wheel) for event in several.events] == [
+        ("blade-loss", "wheel-1"),
+        ("blade-loss", "wheel-3"),
+    ]
+    assert load_scenario(scenario_file(scenario_toml(several))).events == several.events
+    values = rotor_parameters(several, train_of(several))
+    assert values["fracture.time"] == 0.1
+    assert [values[f"wheel[{j}].blade_unbalance"] for j in (1, 2, 3)] == [0.1, 0.0, 0.2]
+    assert values["wheel[3].blade_phase"] == 1.0
+    alone = load_scenario(scenario_file(GOOD + '[event]\nwheel = "wheel-1"\nunbalance = 0.1\ntime = 0.1\n'))
+    assert alone.events == several.events[:1]
+    assert "[[events]]" in scenario_toml(alone)
+    assert with_overrides(alone, {"event": {"time": 0.15}}).events[0].time == 0.15
+    for scenario in (alone, several):
+        assert with_overrides(scenario, {"event": None}).events == ()
+        assert with_overrides(scenario, {"events": None}).events == ()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("", '[event]\nwheel = "wheel-1"\n'), "line 17: event: given beside events; allowed is one of them"),
+        (
+            ("time = 0.1\n[[", "time = 0.05\n[["),
+            "line 16: events.1.time = 0.1; allowed is 0.05 s, as of",
+        ),
+        (("wheel-3", "wheel-1"), "line 13: events.1.wheel = 'wheel-1'; allowed is another wheel"),
+        (("blade-loss", "blade-los"), "line 12: events.1.kind = 'blade-los'; did you mean 'blade-loss'?"),
+        (("phase", "phse"), "line 15: events.1.phse: unknown key; did you mean 'phase'?"),
+        (
+            ("phase = 1.0", "phase = 90.0"),
+            "line 15: events.1.phase = 90.0; allowed is a number of at most 6.3 rad",
+        ),
+        (("wheel-3", "wheel-4"), "line 13: events.1.wheel = 'wheel-4': no such wheel"),
+    ],
+)
+def test_events_that_do_not_fit_are_refused_at_their_line(scenario_file, change, words):
+    text = LOSSES + change[1] if not change[0] else LOSSES.replace(*change)
+    found = problems(scenario_file(GOOD + text))
+    assert any(line.startswith(words) for line in found), found
+
+
+def test_a_kind_of_event_is_one_class(scenario_file, monkeypatch):
+    """Read, written, met by steps, told by the record, parting phases and named in figures."""
+
+    class Whistle(Event):
+        label: ClassVar[str] = "whistle"
+        noun: ClassVar[str] = "whistle"
+        kind: Literal["whistle"]
+        tone: float
+
+    monkeypatch.setitem(KINDS, "whistle", Whistle)
+    text = GOOD + LOSSES + '[[events]]\nkind = "whistle"\ntone = 440.0\ntime = 0.05\n'
+    scenario = load_scenario(scenario_file(text))
+    assert load_scenario(scenario_file(scenario_toml(scenario))).events == scenario.events
+    assert with_overrides(scenario, {"end": 0.3}).events == scenario.events
+    schedule = schedule_of(scenario, train_of(scenario))
+    assert schedule.instants == (0.05, 0.1)
+    assert from_attributes(schedule.attributes()) == schedule
+    assert rotor_parameters(scenario, train_of(scenario))["fracture.time"] == 0.1
+    (problem,) = problems(scenario_file(text.replace("tone", "tune")))[1:]
+    assert "events.2.tune: unknown key; did you mean 'time'?" in problem or "tone" in problem

@@ -83,13 +83,13 @@ CASES = [
         "phase = 0.0", "phase = -45", 11,
         "event.phase = -45; allowed is a number of at least -6.3 rad; did you give degrees?",
         "the phase of the blade in degrees", "exit 2; line, value, range, the likely slip",
-        guard="orchestrator.scenario.scenario:Angle",
+        guard="orchestrator.scenario.fields:Angle",
     ),
     case(
         "[film]", "[unbalance]\ngrade = 2.5\n[film]", 14,
         "unbalance.grade = 2.5; allowed is a number of at most 0.1 m/s; G2.5 is 2.5e-3",
         "a scenario's balance grade in mm/s", "exit 2; line, value, range, what G2.5 is",
-        guard="orchestrator.scenario.scenario:Grade",
+        guard="orchestrator.scenario.fields:Grade",
     ),
     case(
         "rows = 8", "rows = 31", 14, "film.rows = 31; allowed is a number of at most 30",
@@ -99,12 +99,12 @@ CASES = [
     case(
         "unbalance = 0.5", "unbalance = inf", 9, "event.unbalance = inf; allowed is a finite number",
         "a number that is infinite", "exit 2; line, key, value",
-        guard="orchestrator.scenario.scenario:Positive",
+        guard="orchestrator.scenario.fields:Positive",
     ),
     case(
         "step = 1e-4", "step = true", 3, "step = True; allowed is a number",
         "true in place of a number", "exit 2; line, key, value; not taken for 1",
-        guard="orchestrator.scenario.scenario:_Model.model_config",
+        guard="orchestrator.scenario.fields:Model.model_config",
     ),
     case(
         "end = 0.2\nstep = 1e-4", "end = 200.0\nstep = 1e-9", 3,
@@ -121,7 +121,7 @@ CASES = [
     case(
         "[film]", "[flim]", 13, "flim: unknown key; did you mean 'film'? allowed are title, train,",
         "a misspelt table", "exit 2; line, the likely spelling, all keys",
-        guard="orchestrator.scenario.scenario:_Model.model_config",
+        guard="orchestrator.scenario.fields:Model.model_config",
     ),
 ]  # fmt: skip
 

@@ -24,7 +24,7 @@ def case(member, old, new, words, name, outcome, *, guard):
             "unbalance.at.wheel-2.phase = 90.0; allowed is a number of at most 6.3 rad; did you give deg",
             "an SSP with a phase in degrees",
             "exit 2; wheel, value, range, the likely slip",
-            guard="orchestrator.scenario.scenario:Angle",
+            guard="orchestrator.scenario.fields:Angle",
         ),
         case(
             "resources/front.ssv",
