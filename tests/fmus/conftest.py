@@ -7,7 +7,6 @@ from spring_unit.facade import VARIABLES
 
 from fmus.build import builder as build
 from fmus.build.recipe import Recipe
-from orchestrator.fmi.folder import build as build_all
 from rotor_fmu.train.file import load_train
 from tests.fmus.host import Host
 
@@ -52,9 +51,9 @@ def small_train():
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory, small_train) -> dict[str, Path]:
+def built(train_fmus) -> dict[str, Path]:
     """The FMUs of the small train by file name."""
-    return {path.name: path for path in build_all(tmp_path_factory.mktemp("built"), [small_train])}
+    return {path.name: path for path in train_fmus.glob("*.fmu")}
 
 
 @pytest.fixture(scope="session")

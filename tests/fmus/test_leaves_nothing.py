@@ -19,7 +19,7 @@ def resident():
     return pages * 4096 / 1e6
 
 host, sizes = Host(Path(sys.argv[1]), Path(sys.argv[2])), []
-for cycle in range(30):
+for cycle in range(20):
     instances = [host.open(f"unit{k}").start() for k in range(3)]
     for instance in instances:
         for step in range(5):
@@ -50,7 +50,7 @@ def call(script, *arguments):
     return subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
 
 
-@pytest.mark.parametrize("name", ["rotor_small.fmu", "bearing_v1.fmu", "bearing_v3.fmu"])
+@pytest.mark.parametrize("name", ["rotor_small.fmu", "bearing_v1.fmu"])
 def test_twenty_cycles_of_load_and_free_do_not_grow(name, built, tmp_path):
     """Median growth of the resident memory from cycle to cycle, in MB.
 

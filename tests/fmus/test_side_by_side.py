@@ -1,13 +1,11 @@
 """Rotor and bearings of all depths in one process, as a tool that knows nothing of bladeloss runs them."""
 
-import gc
 from itertools import product
 
 import pytest
 
 from bearing_fmu import depths
 from fmus import port
-from tests.fmus.host import Host
 
 H = 1e-4
 
@@ -69,12 +67,3 @@ def test_eleven_bearings_of_one_file_do_not_mix(hosts):
         assert bearing.get("wrench.Fx", "wrench.Fy") == alone.get("wrench.Fx", "wrench.Fy")
         alone.close()
         bearing.close()
-
-
-def test_twenty_cycles_of_load_and_free(built, tmp_path):
-    for cycle in range(20):
-        instance = Host(built["bearing_v3.fmu"], tmp_path / str(cycle)).open().start()
-        assert instance.step(0.0, H)
-        instance.close()
-        if cycle % 5 == 0:
-            gc.collect()

@@ -2,19 +2,16 @@
 
 import pytest
 
-from orchestrator.fmi.folder import build
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 
 FRACTURE = {"end": 0.2, "event": {"time": 0.1003}}
 
 
 @pytest.fixture(scope="session")
-def fmus(tmp_path_factory):
+def fmus(train_fmus):
     """Folder with the rotor of the small train and a bearing of each depth."""
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))])
-    return folder
+    return train_fmus
 
 
 @pytest.fixture(scope="session")

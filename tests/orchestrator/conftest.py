@@ -9,35 +9,32 @@ from pythonfmu.builder import FmuBuilder
 
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.folder import build
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
+from rotor_fmu.train.file import load_train
 
 UNITS = Path(__file__).parent / "units"
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
+def units(folder, names, shared):
+    """Build scripts of the folder of units, with what they share, as FMUs of their own name."""
+    for name in names:
+        script, files = UNITS / f"{name}.py", [UNITS / shared]
+        built = FmuBuilder.build_FMU(script, folder, files, canGetAndSetFMUstate=True)
+        (folder / built.name).rename(folder / f"{name}.fmu")
+
+
 @pytest.fixture(scope="session")
-def toy_fmus(tmp_path_factory):
+def toy_fmus(once):
     """Folder with two_masses.fmu and spring_damper.fmu."""
-    folder = tmp_path_factory.mktemp("fmus")
-    for name in ("two_masses", "spring_damper"):
-        built = FmuBuilder.build_FMU(
-            UNITS / f"{name}.py", folder, [UNITS / "port_unit.py"], canGetAndSetFMUstate=True
-        )
-        (folder / built.name).rename(folder / f"{name}.fmu")
-    return folder
+    return once("toy", lambda folder: units(folder, ("two_masses", "spring_damper"), "port_unit.py"))
 
 
 @pytest.fixture(scope="session")
-def loop_fmus(tmp_path_factory):
+def loop_fmus(once):
     """Folder with lag.fmu and gain.fmu, an unsymmetric loop with feedthrough."""
-    folder = tmp_path_factory.mktemp("loop")
-    for name in ("lag", "gain"):
-        built = FmuBuilder.build_FMU(
-            UNITS / f"{name}.py", folder, [UNITS / "loop_matrices.py"], canGetAndSetFMUstate=True
-        )
-        (folder / built.name).rename(folder / f"{name}.fmu")
-    return folder
+    return once("loop", lambda folder: units(folder, ("lag", "gain"), "loop_matrices.py"))
 
 
 @pytest.fixture
@@ -48,11 +45,9 @@ def store():
 
 
 @pytest.fixture(scope="session")
-def small_fmus(tmp_path_factory):
+def small_fmus(once):
     """FMUs of the small train with short bearings."""
-    folder = tmp_path_factory.mktemp("small")
-    build(folder, [train_of(load_scenario("small"))], names=("v3",))
-    return folder
+    return once("small", lambda folder: build(folder, [load_train("small")], names=("v3",)))
 
 
 @pytest.fixture(scope="session")

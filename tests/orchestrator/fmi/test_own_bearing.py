@@ -10,7 +10,6 @@ from pythonfmu.builder import FmuBuilder
 from orchestrator.case.case import ssp_case
 from orchestrator.case.simulate import execute, simulate
 from orchestrator.errors import PortError, ScenarioError
-from orchestrator.fmi.folder import build
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.ssp.export import export
@@ -26,10 +25,8 @@ def own(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))], names=("v3",))
-    return folder
+def fmus(train_fmus):
+    return train_fmus
 
 
 def scenario(own, **overrides):

@@ -5,7 +5,6 @@ import pytest
 
 from orchestrator.case.simulate import simulate
 from orchestrator.fmi.file import FmuStore
-from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.start.equilibrium import find_start
@@ -29,10 +28,8 @@ def small(**overrides):
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(small())], ["v1"])
-    return folder
+def fmus(train_fmus):
+    return train_fmus
 
 
 @pytest.fixture(scope="module")

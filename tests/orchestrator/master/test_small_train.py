@@ -10,7 +10,6 @@ from bearing_fmu import depths
 from fmus.build.archive import write_archive
 from fmus.build.promises import ISOTROPIC
 from orchestrator.case.simulate import simulate
-from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
 from orchestrator.master.coupling import LinearImplicit
 from orchestrator.master.start.equilibrium import apply_start, find_start
@@ -23,10 +22,8 @@ CALM = {"event": None, "unbalance": {"grade": 0.0}, "end": 0.01}
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))])
-    return folder
+def fmus(train_fmus):
+    return train_fmus
 
 
 def small(**overrides):

@@ -14,12 +14,10 @@ import pytest
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
-from orchestrator.fmi.folder import build
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record
-from orchestrator.scenario.file import load_scenario, train_of
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
@@ -147,11 +145,9 @@ def command(*arguments):
 
 
 @pytest.mark.slow
-def test_kill_at_random_moments_of_the_small_train(tmp_path):
+def test_kill_at_random_moments_of_the_small_train(train_fmus, tmp_path):
     """Three times SIGKILL, wherever it strikes: in a step, a record, or the writing of a checkpoint."""
-    folder = tmp_path / "fmus"
-    build(folder, [train_of(load_scenario("small"))])
-    options = ["small", "--depth", "v2", "--end", "1.2", "--no-figures", "--fmus", folder]
+    options = ["small", "--depth", "v2", "--end", "1.2", "--no-figures", "--fmus", train_fmus]
     assert command("run", *options, "--out", tmp_path / "whole").wait() == 0
     out = tmp_path / "killed"
     saved = checkpoint_folder(out) / checkpoint.FILE

@@ -4,22 +4,19 @@ import numpy as np
 import pytest
 
 from orchestrator.case.simulate import simulate
-from orchestrator.fmi.folder import build
 from orchestrator.master.coupling import LinearImplicit
 from orchestrator.master.stepping import Stepper
 from orchestrator.observers.ledger import Ledger
 from orchestrator.outcome import Outcome
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import to_text
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_scenario
 from tests.orchestrator.oscillator import DISPLACEMENT, released
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))])
-    return folder
+def fmus(train_fmus):
+    return train_fmus
 
 
 def ledger_of(fmus, outcome=Outcome.FINISHED, **change):

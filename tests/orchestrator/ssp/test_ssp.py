@@ -9,11 +9,10 @@ from fmus.build.archive import write_archive
 from orchestrator.case.case import ssp_case
 from orchestrator.case.simulate import Execution, execute, simulate
 from orchestrator.errors import ScenarioError
-from orchestrator.fmi.folder import build
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import Wiring
 from orchestrator.outcome import Outcome
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
@@ -26,10 +25,8 @@ def small(**overrides):
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(small())])
-    return folder
+def fmus(train_fmus):
+    return train_fmus
 
 
 @pytest.fixture(scope="module")
