@@ -98,6 +98,44 @@ def test_it_is_built_and_run(tmp_path):
     assert 'memoryless="true"' in description and "isotropic" not in description
 
 
+START = """
+import numpy as np
+from pathlib import Path
+from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import build
+from orchestrator.master.assembly import assemble
+from orchestrator.master.start.equilibrium import find_start
+from orchestrator.master.start.journal_position import ALIGNED, aligned_positions
+from orchestrator.scenario.file import load_scenario, train_of
+scenario = load_scenario("small", {"depth": "linear"})
+train = train_of(scenario)
+build(Path("fmus"), [train], ["linear"])
+clearances = np.array([seat.clearance for seat in train.bearings])
+turn = np.array([[np.cos(%(angle)s), -np.sin(%(angle)s)], [np.sin(%(angle)s), np.cos(%(angle)s)]])
+added.STIFFNESS[:] = turn @ added.STIFFNESS @ turn.T
+with FmuStore() as store:
+    system = assemble(scenario, train, Path("fmus"), store)
+    system.set_speed(train.speed)
+    loads = np.array([8.0e4, 5.0e4])
+    found = aligned_positions(system, loads, clearances)
+    expected = -np.linalg.solve(added.STIFFNESS, np.array([0.0 * loads, loads])).T
+    error, size = (np.linalg.norm(x, axis=1) for x in (found[:, :2] - expected, expected))
+    assert np.all(size < clearances) and np.all(error < 20 * ALIGNED * size), (error, size)
+    start = find_start(system, train.bearings, train.speed, train.nodes)
+    system.close()
+relative = (start.static - start.offsets)[:, :2]
+force = -(added.STIFFNESS @ relative.T).T
+np.testing.assert_allclose(force, start.loads, rtol=1e-9, atol=1e-9 * abs(start.loads).max())
+assert np.all(start.loads[:, 1] > 1e3)
+"""
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.0, 2.5])
+def test_a_start_is_found_where_directions_are_unlike(angle, tmp_path):
+    """Against the closed form, however the stiff direction lies."""
+    in_a_process(START % {"angle": angle}, folder=tmp_path)
+
+
 @pytest.mark.parametrize("name", ["v1", "Linear", "a-b", ""])
 def test_names_that_are_taken_or_unfit_are_refused(name):
     from dataclasses import replace

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fmus.build.promises import ISOTROPIC
 from orchestrator.errors import EquilibriumError
 from orchestrator.master.system import RESPONSE, System
 
@@ -16,6 +17,15 @@ Array = NDArray[np.float64]
 
 BISECTIONS = 45
 """Of the eccentricity of the aligned journal; leaves 1e-13 of the clearance."""
+
+FARTHEST = 2.0
+"""Displacement in clearances to which a bearing is searched that is not isotropic: its bore may be wider."""
+
+DIRECTIONS = 60
+"""Allowed to the search of a direction; some ten are usual."""
+
+ALIGNED = 1e-3
+"""Angle in rad between force and load at which the search of a direction ends."""
 
 NEWTON_STEPS = 40
 """Allowed to each stage of tilting; some five are usual."""
@@ -42,9 +52,10 @@ def evaluate(system: System, positions: Array) -> None:
 def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     """Positions of aligned journals under vertical loads.
 
-    A plain film has no preferred direction: its force grows with the eccentricity, and the angle
-    between both follows. The eccentricity is bracketed and bisected, then the bearing is turned
-    until the force points up.
+    Along one direction of displacement the film's force grows, so that its size is bracketed and bisected.
+    A bearing that promises to be isotropic is then turned until the force points up: the angle between both
+    stays.  For others the direction is searched, too: as the displacement makes a turn, so does the force,
+    and the directions between which it passes the vertical are brought together.
 
     Parameters
     ----------
@@ -58,39 +69,78 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     Returns
     -------
     ndarray (bearings, 4)
-        Positions relative to the bearings, tilts zero.
+        Positions relative to the bearings, tilts zero; those of bearings that are not isotropic to some
+        `ALIGNED` rad, for Newton's method to go on from.
 
     Raises
     ------
     EquilibriumError
-        When a film does not carry its load at any eccentricity.
+        When a film does not carry its load at any position.
+    """
+    isotropic = np.array([ISOTROPIC in unit.file.promises for unit in system.bearings])
+    reach = np.where(isotropic, 1.0, FARTHEST)
+    angle = np.zeros_like(loads)
+    share, turn, carried = _along(system, angle, loads, clearances, reach)
+    angle = np.where(isotropic, turn, angle)
+    ends = np.full((2, len(loads)), np.nan)  # directions from which the force must be turned forth and back
+    turns = np.zeros_like(ends)
+    searched = ~isotropic & (np.abs(turn) > ALIGNED)
+    for _ in range(DIRECTIONS):
+        if not searched.any():
+            break
+        back = (turn < 0.0).astype(int)
+        each = np.flatnonzero(searched)
+        ends[back[each], each], turns[back[each], each] = angle[each], turn[each]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            between = ends[0] + np.clip(turns[0] / (turns[0] - turns[1]), 0.1, 0.9) * (ends[1] - ends[0])
+        angle = np.where(searched, np.where(np.isfinite(between), between, angle + turn), angle)
+        found = zip(_along(system, angle, loads, clearances, reach), (share, turn, carried), strict=True)
+        share, turn, carried = (np.where(searched, new, old) for new, old in found)
+        searched &= np.abs(turn) > ALIGNED
+    if searched.any():
+        name = system.bearings[int(np.argmax(searched))].name
+        raise EquilibriumError(f"{name}: no position found at which the force of the film points up")
+    short = ~(carried > 0.99 * loads)
+    if short.any():
+        worst = int(np.argmax(short))
+        raise EquilibriumError(
+            f"{system.bearings[worst].name}: the film carries {carried[worst]:.4g} N of the load "
+            f"{loads[worst]:.4g} N at most"
+        )
+    positions = np.zeros((len(loads), 4))
+    positions[:, 0] = share * clearances * np.sin(angle)
+    positions[:, 1] = -share * clearances * np.cos(angle)
+    return positions
+
+
+def _along(
+    system: System, angle: Array, loads: Array, clearances: Array, reach: Array
+) -> tuple[Array, Array, Array]:
+    """Displace journals in one direction until their films give the loads.
+
+    Returns the displacements over the clearances, the angles by which the forces are off upwards, and their
+    sizes, less than the loads where a film does not carry them.  The displacement points down at the angle 0
+    and goes with the rotation from x to y.
     """
     positions = np.zeros((len(loads), 4))
-    low, high = np.zeros_like(loads), np.ones_like(loads)
+    along, down = clearances * np.sin(angle), -clearances * np.cos(angle)
+    low, high = np.zeros_like(loads), reach.copy()
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        positions[:, 1] = -middle * clearances
+        positions[:, 0], positions[:, 1] = middle * along, middle * down
         evaluate(system, positions)
         magnitude = np.hypot(*system.responses[:, _FORCE].T)
         too_far = ~(magnitude < loads)  # a failed state too
         high = np.where(too_far, middle, high)
         low = np.where(too_far, low, middle)
-    positions[:, 1] = -low * clearances
+    positions[:, 0], positions[:, 1] = low * along, low * down
     evaluate(system, positions)
     force = system.responses[:, _FORCE].copy()
-    short = ~(np.hypot(*force.T) > 0.99 * loads)
     if not np.all(np.isfinite(force)):
         unit = system.bearings[int(np.argmin(np.isfinite(force).all(axis=1)))]
         raise EquilibriumError(f"{unit.name}: no film at any position: {unit.reason}")
-    if short.any():
-        raise EquilibriumError(
-            f"{system.bearings[int(np.argmax(short))].name}: the film carries "
-            f"{np.hypot(*force[np.argmax(short)]):.4g} N of the load {loads[np.argmax(short)]:.4g} N at most"
-        )
     turn = 0.5 * np.pi - np.arctan2(force[:, 1], force[:, 0])
-    positions[:, 0] = low * clearances * np.sin(turn)
-    positions[:, 1] = -low * clearances * np.cos(turn)
-    return positions
+    return low, np.where(turn > np.pi, turn - 2.0 * np.pi, turn), np.hypot(*force.T)
 
 
 def carry(system: System, forces: Array, positions: Array) -> Array:
