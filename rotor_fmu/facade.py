@@ -81,7 +81,7 @@ class RotorSlave(UnitSlave):
             built_for[key] = self._per_wheel(key)
         if built_for != self._built_for:
             self._built_for = None
-            self._rotor = Rotor(self._train, **built_for)
+            self._rotor = Rotor.of_train(self._train, **built_for)
             self._built_for = built_for
 
     def start(self) -> None:

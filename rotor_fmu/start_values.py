@@ -32,7 +32,7 @@ def default_starts(train: Train) -> dict[str, port.Value]:
     dict
         Speed, forces, journal positions and 1X orbit, unbalances.
     """
-    rotor = Rotor(train)
+    rotor = Rotor.of_train(train)
     bearings = len(train.bearings)
     loads = np.zeros((bearings, 4))
     loads[:, 1] = target_loads(train)

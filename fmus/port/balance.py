@@ -23,5 +23,9 @@ BALANCE = tuple(
 """Outputs of the rotor; the works' sum, damping negative, is the change of the energies' sum."""
 
 TRACK_WORK = Variable(
-    "track_work", "parameter", "", "keep account of work.*, at twice the cost", False, kind="Boolean"
+    "track_work",
+    "parameter",
+    description="keep account of work.*; a step of the rotor then costs three to six times as much",
+    start=False,
+    kind="Boolean",
 )

@@ -31,8 +31,9 @@ from typing import Any
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
-_kept: list[dict[str, Any]] = []
-_let_go: set[Path] = set()
+# Of the process, for what they make up for is done to the process; each FMU version has a loader of its own.
+_kept: list[dict[str, Any]] = []  # see `keep`
+_let_go: set[Path] = set()  # libraries that `_let_go_at_exit` has seen to
 _CHECKED = "__bladeloss_digest__"  # set on a package once its sources are known
 
 

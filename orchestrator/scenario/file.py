@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import tomlkit
 from pydantic import ValidationError
 
 from orchestrator.errors import OrchestratorError, ScenarioError
@@ -130,7 +131,7 @@ def read_train(source: str | Path) -> Train:
 
 def scenario_toml(scenario: Scenario) -> str:
     """TOML text of a scenario, its defaults spelt out; reading it gives the scenario again."""
-    return "\n".join(_toml_lines(scenario.model_dump(mode="json", exclude_none=True), ())) + "\n"
+    return tomlkit.dumps(_without_empty(scenario.model_dump(mode="json", exclude_none=True)))
 
 
 def _checked(
@@ -233,28 +234,7 @@ def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return result
 
 
-def _toml_lines(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
-    """Write scalars first, then tables: enough of TOML for a scenario."""
-    scalars = {key: value for key, value in table.items() if not isinstance(value, Mapping | list)}
-    if path and scalars:
-        yield f"\n[{'.'.join(_toml_text(part) for part in path)}]"
-    for key, value in scalars.items():
-        yield f"{_toml_text(key)} = {_toml_value(value)}"
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _toml_lines(value, (*path, key))
-        for entry in value if isinstance(value, list) else ():
-            yield f"\n[[{key}]]"
-            yield from _toml_lines(entry, ())
-
-
-def _toml_text(text: str) -> str:
-    plain = text.replace("_", "").replace("-", "")
-    return text if plain.isascii() and plain.isalnum() else _toml_value(text)
-
-
-def _toml_value(value: str | float) -> str:
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        return '"' + "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped) + '"'
-    return str(value).lower() if isinstance(value, bool) else repr(value)
+def _without_empty(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Leave out tables that hold nothing."""
+    inner = {key: _without_empty(v) if isinstance(v, Mapping) else v for key, v in table.items()}
+    return {key: value for key, value in inner.items() if value != {}}

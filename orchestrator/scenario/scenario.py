@@ -143,7 +143,7 @@ class Scenario(Model):
         the coupling beside it: where an option replaces one of them, it must be given anew.
     ledger : bool
         Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created
-        or lost. A step of the rotor then takes twice to three times as long.
+        or lost; what that costs stands at the rotor's parameter ``track_work``.
     coupling : str
         Name of the coupling, one of `COUPLINGS`.
     film : FilmResolution

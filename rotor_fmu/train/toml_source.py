@@ -55,8 +55,9 @@ class TomlSource:
     def line(self, location: Location) -> int | None:
         """Line, from 1 on, where the value at a location begins; of a missing one, that of what holds it.
 
-        The parser itself is asked: the line is the first whose text up to there has the value. So
-        every way to write TOML counts, and lines inside of a long value are passed over.
+        Neither tomllib nor tomlkit keeps the places of what it has read. So the parser itself is asked: the
+        line is the first whose text up to there has the value. So every way to write TOML counts, and lines
+        inside of a long value are passed over.
         """
         while location and not _holds(self.raw, location):
             location = location[:-1]

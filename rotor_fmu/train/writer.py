@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import fields
+from collections.abc import Iterator
+from dataclasses import asdict, fields
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+import tomlkit
 
 from rotor_fmu.train.train import BearingSeat, Coupling, Train, Wheel
 
@@ -48,37 +50,28 @@ def shaft_csv(train: Train) -> str:
 
 def train_toml(train: Train) -> str:
     """Everything that is not a shoulder; wheels, bearings and couplings are placed by z."""
-    lines = [
-        f'name = "{train.name}"',
-        f"speed = {train.speed!r}",
-        f"balance_grade = {train.balance_grade!r}",
-        "",
-        "[damping]",
-        f"alpha = {train.rayleigh_alpha!r}",
-        f"beta = {train.rayleigh_beta!r}",
-    ]
-    for material in {s.material.name: s.material for s in train.shoulders}.values():
-        lines += [
-            "",
-            f"[materials.{material.name}]",
-            f"youngs_modulus = {material.youngs_modulus!r}",
-            f"poisson_ratio = {material.poisson_ratio!r}",
-            f"density = {material.density!r}",
-        ]
+    content: dict[str, Any] = {
+        "name": train.name,
+        "speed": train.speed,
+        "balance_grade": train.balance_grade,
+        "damping": {"alpha": train.rayleigh_alpha, "beta": train.rayleigh_beta},
+        "materials": {},
+    }
+    for material in dict.fromkeys(s.material for s in train.shoulders):
+        properties = asdict(material)
+        content["materials"][properties.pop("name")] = properties
     for part in _parts(train):
-        lines += ["", f"[[{_kind(part)}]]", *_entries(train, part)]
-    return "\n".join(lines) + "\n"
+        content.setdefault(_kind(part), []).append(dict(_entries(train, part)))
+    return tomlkit.dumps(content)
 
 
-def _entries(train: Train, part: Placed) -> Iterable[str]:
+def _entries(train: Train, part: Placed) -> Iterator[tuple[str, str | float]]:
     for field in fields(part):
         value = getattr(part, field.name)
         if field.name == "node":
-            yield f"z = {_z(train, part.node)!r}"
-        elif isinstance(value, str):
-            yield f'{field.name} = "{value}"'
+            yield "z", _z(train, part.node)
         elif value is not None:
-            yield f"{field.name} = {float(value)!r}"
+            yield field.name, value if isinstance(value, str) else float(value)
 
 
 def _parts(train: Train) -> tuple[Placed, ...]:

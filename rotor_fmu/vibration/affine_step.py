@@ -33,7 +33,7 @@ from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
 Array = NDArray[np.float64]
 
 
-class StepFailure(ArithmeticError):
+class NoFiniteResult(ArithmeticError):
     """The step has no finite result; the state before it stands."""
 
 
@@ -54,7 +54,6 @@ class AffineStep:
         self._square = self._matrix.reshape(loads, loads)
         self._diagonal = self._square.reshape(-1)[:: loads + 1]
         self._reaction = np.zeros((bearings, 4, 1))
-        self._nearer: Array | None = None  # c / 2 of each wrench component in the last step, None for 0
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
@@ -62,18 +61,35 @@ class AffineStep:
         self._law[:, :, 4:] = C
 
     def held(
-        self, F0: Array, start: Array, end: Array, static: Equilibrium[np.float64]
+        self,
+        nearer: Array | None,
+        F0: Array,
+        start: Array,
+        end: Array,
+        static: Equilibrium[np.float64],
     ) -> tuple[Array, Array]:
-        """Wrenches between which the last step ran, from journals at both ends, (4 n_b,) each.
+        """Wrenches between which a step under the law last set ran, (4 n_b,) each.
 
-        Counted from those of the static equilibrium.
+        Parameters
+        ----------
+        nearer : ndarray or None
+            What `advance` said of it.
+        F0, static
+            As it took them.
+        start, end : ndarray, (n_b, 8)
+            The journals at both ends.
+
+        Returns
+        -------
+        tuple of ndarray
+            Counted from those of the static equilibrium.
         """
         offset = F0.reshape(-1) - static.wrench
         w0, w1 = (offset - self._react(journals) for journals in (start, end))
-        if self._nearer is None:
+        if nearer is None:
             return w0, w1
-        nearer = self._nearer * (w1 - w0)
-        return w0 + nearer, w1 - nearer
+        moved = nearer * (w1 - w0)
+        return w0 + moved, w1 - moved
 
     def advance(
         self,
@@ -85,7 +101,7 @@ class AffineStep:
         rotation: Array,
         kick: Array | None,
         static: Equilibrium[np.float64],
-    ) -> Array:
+    ) -> tuple[Array, Array | None]:
         """Take a step under the law last set.
 
         Parameters
@@ -107,17 +123,19 @@ class AffineStep:
 
         Returns
         -------
-        ndarray, (2 m,)
-            The motion at the end.
+        motion : ndarray, (2 m,)
+            At the end.
+        nearer : ndarray, (4 n_b,), or None
+            c / 2 of each wrench component, for `held`; None where all ran linearly.
 
         Raises
         ------
-        StepFailure
+        NoFiniteResult
             If the law has no solution at the end of the step, or numbers are not finite.
         """
         offset = F0.reshape(-1) - static.wrench
         start = offset - self._react(journals)
-        nearer = self._nearer = self._share(maps.compliance)
+        nearer = self._share(maps.compliance)
         if nearer is None:
             end = maps.coast(motion, start, rotation)
             compliance = maps.compliance.end
@@ -140,10 +158,10 @@ class AffineStep:
             maps.add_start(nearer * wrench, end)
             maps.add_end(wrench - nearer * wrench, end)
         if info != 0 or not np.isfinite(np.dot(end, end)):
-            raise StepFailure(
+            raise NoFiniteResult(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
-        return end
+        return end, nearer
 
     def _share(self, compliance: Compliance) -> Array | None:
         """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""

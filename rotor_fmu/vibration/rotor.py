@@ -30,23 +30,17 @@ class Rotor:
 
     Parameters
     ----------
-    train : Train
-        The train.
-    reduction : str
-        How the shaft is reduced: irs, irs-plain, guyan, craig-bampton or none; see `reduce`.
+    shaft : PreparedShaft
+        The shaft, see `of_train` for that of a train.
+    unbalance : Unbalance
+        Its excitation.
     gravity : float
         Against y [m/s2].
-    speed : float, optional
-        Speed at the start [rad/s]; default that of the train.
-    unbalance, unbalance_phase : array_like, (n_w,), optional
-        Nominal unbalance of the wheels [kg m] and its angle at t = 0 [rad]; default that of the train.
-    blade_unbalance, blade_phase : array_like, (n_w,), optional
-        Unbalance added by the blade fracture and its angle at t = 0; default none.
-    fracture_time : float
-        Instant of the fracture [s].
+    speed : float
+        Speed at the start [rad/s].
     track_work : bool
-        Keep account of the works, at some seven times the cost of a step and some seconds for the
-        first step of each size (minutes for the unreduced shaft).
+        Keep account of the works, for the cost that `fmus.port.balance.TRACK_WORK` says; the first step
+        of each size takes some seconds (minutes for the unreduced shaft).
 
     Notes
     -----
@@ -56,47 +50,21 @@ class Rotor:
     speed, which takes a thousand times as long as a step.
     """
 
+    holds_mean = False
+    """Whether the last step held a part of some wrench at its mean, see `rotor_fmu.vibration.affine_step`."""
+
     _state: RotorState
     _journals: Array
     _modal: Array | None
 
     def __init__(
         self,
-        train: Train,
-        *,
-        reduction: Method = "irs",
-        gravity: float = 9.80665,
-        speed: float | None = None,
-        unbalance: ArrayLike | None = None,
-        unbalance_phase: ArrayLike | None = None,
-        blade_unbalance: ArrayLike | None = None,
-        blade_phase: ArrayLike | None = None,
-        fracture_time: float = math.inf,
-        track_work: bool = False,
-    ) -> None:
-        excitation = Unbalance.of_train(
-            train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
-        )
-        start_speed = train.speed if speed is None else speed
-        self._set_up(prepare_shaft(train, reduction), excitation, gravity, start_speed, track_work)
-
-    @classmethod
-    def of_shaft(
-        cls,
         shaft: PreparedShaft,
         unbalance: Unbalance,
         *,
         gravity: float,
         speed: float,
         track_work: bool = False,
-    ) -> Rotor:
-        """A rotor of a given shaft instead of a train; see the class."""
-        rotor = cls.__new__(cls)
-        rotor._set_up(shaft, unbalance, gravity, speed, track_work)
-        return rotor
-
-    def _set_up(
-        self, shaft: PreparedShaft, unbalance: Unbalance, gravity: float, speed: float, track_work: bool
     ) -> None:
         model = self.model = shaft.model
         self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
@@ -110,6 +78,53 @@ class Rotor:
         nothing = np.zeros(len(self.shaft.bearing))
         rest = Equilibrium(np.zeros(model.size), nothing, nothing)
         self.set_state(RotorState(np.zeros(2 * self.shaft.size), 0.0, rest))
+
+    @classmethod
+    def of_train(
+        cls,
+        train: Train,
+        *,
+        reduction: Method = "irs",
+        gravity: float = 9.80665,
+        speed: float | None = None,
+        unbalance: ArrayLike | None = None,
+        unbalance_phase: ArrayLike | None = None,
+        blade_unbalance: ArrayLike | None = None,
+        blade_phase: ArrayLike | None = None,
+        fracture_time: float = math.inf,
+        track_work: bool = False,
+    ) -> Rotor:
+        """The rotor of a train.
+
+        Parameters
+        ----------
+        train : Train
+            The train.
+        reduction : str
+            How the shaft is reduced: irs, irs-plain, guyan, craig-bampton or none; see `reduce`.
+        gravity : float
+            Against y [m/s2].
+        speed : float, optional
+            Speed at the start [rad/s]; default that of the train.
+        unbalance, unbalance_phase : array_like, (n_w,), optional
+            Nominal unbalance of the wheels [kg m] and its angle at t = 0 [rad]; default that of the train.
+        blade_unbalance, blade_phase : array_like, (n_w,), optional
+            Unbalance added by the blade fracture and its angle at t = 0; default none.
+        fracture_time : float
+            Instant of the fracture [s].
+        track_work : bool
+            As for the class.
+        """
+        excitation = Unbalance.of_train(
+            train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
+        )
+        return cls(
+            prepare_shaft(train, reduction),
+            excitation,
+            gravity=gravity,
+            speed=train.speed if speed is None else speed,
+            track_work=track_work,
+        )
 
     def start_from_positions(
         self, static: ArrayLike, cos: ArrayLike, sin: ArrayLike, *, time: float = 0.0
@@ -176,7 +191,7 @@ class Rotor:
 
         Raises
         ------
-        StepFailure
+        NoFiniteResult
             If the step has no finite result, as under a law that is not finite; the state before it stands.
         ValueError
             If H is not positive and finite, or the speed is not finite.
@@ -192,7 +207,7 @@ class Rotor:
             kick = self._maps.kick(speed, t + H - fracture, angle + speed * (fracture - t))
         coordinates = self._maps.coordinates(speed)
         self._stepper.set_law(K, C)
-        end = self._stepper.advance(
+        end, nearer = self._stepper.advance(
             coordinates,
             self._maps.step(speed, H, t + H),
             self._motion_in(coordinates),
@@ -202,10 +217,11 @@ class Rotor:
             kick,
             state.static,
         )
+        self.holds_mean = nearer is not None
         work = state.work
         if self._ledger is not None:
             after = journal_motion(coordinates, end, state.static)
-            held = self._stepper.held(F0, journals, after, state.static)
+            held = self._stepper.held(nearer, F0, journals, after, state.static)
             turn = (angle, speed)
             done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), held, state.static)
             work = Work(*(a + b for a, b in zip(work, done, strict=True)))

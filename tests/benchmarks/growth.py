@@ -84,7 +84,7 @@ def degrees_of_freedom() -> None:
     for size in SIZES:
         reduced = reduce(shaft.model, "craig-bampton", size=size)
         prepared = PreparedShaft(shaft.model, reduced, to_modal(reduced), shaft.bending)
-        rotor = Rotor.of_shaft(prepared, excitation, gravity=9.80665, speed=train.speed)
+        rotor = Rotor(prepared, excitation, gravity=9.80665, speed=train.speed)
         rotor.start_from_law(*law, orbit=True)
         seconds = least_time(partial(rotor.step, 0.0, STEP, *law, train.speed), repeats=50, rounds=5)
         rows.append((rotor.shaft.size, f"{1e3 * seconds:.3f}"))

@@ -51,7 +51,7 @@ def timed(call: Callable[[], Result]) -> tuple[float, Result]:
 def measure(train: Train, method: Method) -> tuple[int, list[float]]:
     """Reduced size, and times [s] in the order of `COLUMNS`."""
     law = oil_films(train)
-    set_up, rotor = timed(lambda: Rotor(train, reduction=method))
+    set_up, rotor = timed(lambda: Rotor.of_train(train, reduction=method))
 
     def start() -> None:
         rotor.start_from_law(*law, orbit=True)

@@ -97,7 +97,7 @@ def test_steps_give_the_numbers_of_the_rotor(unit, small_train):
     settings = {f"wheel[{j}].blade_unbalance": x for j, x in enumerate(blade.tolist(), 1)}
     set_law(unit, small_train, law)
     unit.start(settings | {"start.from_law": 1, "fracture.time": 10.5 * H, "gravity": 9.0})
-    rotor = Rotor(
+    rotor = Rotor.of_train(
         small_train,
         gravity=9.0,
         speed=speed,
@@ -127,7 +127,7 @@ def test_initialization_follows_the_laws(unit, small_train):
     unit.set({"start.from_law": 1, "start.orbit": 0})
     unit.slave.setupExperiment(startTime=0.0)
     unit.slave.enterInitializationMode()
-    rotor = Rotor(small_train, blade_phase=np.zeros(len(small_train.wheels)))
+    rotor = Rotor.of_train(small_train, blade_phase=np.zeros(len(small_train.wheels)))
     for factor in (1.0, 1.5):
         set_law(unit, small_train, (F0, factor * K, C))
         rotor.start_from_law(F0, factor * K, C, orbit=False)

@@ -151,7 +151,7 @@ def holistic_model(scenario: Scenario, train: Train, start: Start) -> Holistic:
     """
     excitation = unbalance_of(scenario, train)
     shaft = prepare_shaft(train, scenario.reduction)
-    rotor = Rotor.of_shaft(shaft, excitation, gravity=GRAVITY, speed=train.speed)
+    rotor = Rotor(shaft, excitation, gravity=GRAVITY, speed=train.speed)
     rotor.start_from_positions(start.static, start.cosine, start.sine)
     state = rotor.get_state()
     return Holistic(

@@ -44,7 +44,7 @@ class Coupled:
         self.train = train = load_train("small")
         wheels = np.zeros(len(train.wheels))
         wheels[1] = UNBALANCE
-        self.rotor = Rotor(train, gravity=GRAVITY, unbalance=wheels, track_work=True)
+        self.rotor = Rotor.of_train(train, gravity=GRAVITY, unbalance=wheels, track_work=True)
         self.bearings = [parameters(seat) for seat in train.bearings]
         self.films = [make_film(depth, bearing) for bearing in self.bearings]
         self.inputs = np.zeros((len(self.films), 17))

@@ -76,7 +76,7 @@ def test_loads_of_the_bearings_balance_the_weight(train):
 def test_rest_in_equilibrium_stays_rest(train, data):
     """Static wrenches balance the weight, and steps of any length leave the shaft where it is."""
     law = data.draw(laws(train))
-    rotor = Rotor(train, reduction="guyan", unbalance=np.zeros(len(train.wheels)))
+    rotor = Rotor.of_train(train, reduction="guyan", unbalance=np.zeros(len(train.wheels)))
     rotor.start_from_law(*law, orbit=False)
     weight = GRAVITY * train.mass
     force = rotor.static_wrench().sum(axis=0)
@@ -99,7 +99,7 @@ def test_energy_after_a_push_stays_bounded(train, data):
     below the limit of the linear acceleration method, sqrt(k/m) H = 2 sqrt(3), of the stiffest journal.
     """
     F0, K, C = data.draw(laws(train))
-    rotor = Rotor(train, reduction="guyan", unbalance=np.zeros(len(train.wheels)))
+    rotor = Rotor.of_train(train, reduction="guyan", unbalance=np.zeros(len(train.wheels)))
     rotor.start_from_law(F0, K, C, orbit=False)
 
     def energy():

@@ -42,7 +42,7 @@ def matrix_rotor(model, reduced, excitation, *, gravity, speed, track_work=False
     n = model.size
     bending = BendingStress(sp.csr_array((n, n)), np.zeros(n), np.ones((2, n // 4)))
     shaft = PreparedShaft(model, reduced, to_modal(reduced), bending)
-    return Rotor.of_shaft(shaft, excitation, gravity=gravity, speed=speed, track_work=track_work)
+    return Rotor(shaft, excitation, gravity=gravity, speed=speed, track_work=track_work)
 
 
 def gyroscopic(seed=1, nodes=3):

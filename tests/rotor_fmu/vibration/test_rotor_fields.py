@@ -19,7 +19,7 @@ def running(request):
     train = load_train("small")
     blade = np.zeros(len(train.wheels))
     blade[0] = 0.5
-    rotor = Rotor(train, reduction=request.param, blade_unbalance=blade, fracture_time=1e-3)
+    rotor = Rotor.of_train(train, reduction=request.param, blade_unbalance=blade, fracture_time=1e-3)
     F0, K, C = (np.zeros((2, 4)), np.zeros((2, 4, 4)), np.zeros((2, 4, 4)))
     K[:, 0, 0], K[:, 1, 1], C[:, 0, 0], C[:, 1, 1] = 1e8, 2e8, 1e5, 2e5
     rotor.start_from_law(F0, K, C, orbit=True)
@@ -65,7 +65,7 @@ def test_extremes_are_those_of_the_fields(running):
 def test_static_bending_between_two_bearings_is_a_beam_on_two_supports():
     """Moment of the weight at a node: from forces and arms to its left alone."""
     train = load_train("small")
-    rotor = Rotor(train, unbalance=np.zeros(len(train.wheels)))
+    rotor = Rotor.of_train(train, unbalance=np.zeros(len(train.wheels)))
     free_tilts = np.zeros((2, 4, 4))
     free_tilts[:, 0, 0] = free_tilts[:, 1, 1] = 1e10
     rotor.start_from_law(np.zeros((2, 4)), free_tilts, 0 * free_tilts, orbit=False)

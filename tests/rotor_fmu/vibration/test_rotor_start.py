@@ -39,7 +39,7 @@ def dense_equilibrium(model, F0, K):
 
 @pytest.mark.parametrize("reduction", ["irs", "guyan", "craig-bampton", "none"])
 def test_static_equilibrium_is_that_of_the_unreduced_shaft(train, reduction):
-    rotor = Rotor(train, reduction=reduction)
+    rotor = Rotor.of_train(train, reduction=reduction)
     F0, K, C = springs(rotor)
     F0[:, 1], F0[0, 2] = 2e4, 1e3
     rotor.start_from_law(F0, K, C, orbit=False)
@@ -55,7 +55,7 @@ def test_static_equilibrium_is_that_of_the_unreduced_shaft(train, reduction):
 
 @pytest.mark.parametrize("reduction", ["irs", "guyan"])
 def test_a_shaft_in_static_equilibrium_stays_at_rest(train, reduction):
-    rotor = Rotor(train, reduction=reduction, unbalance=np.zeros(len(train.wheels)))
+    rotor = Rotor.of_train(train, reduction=reduction, unbalance=np.zeros(len(train.wheels)))
     law = springs(rotor)
     rotor.start_from_law(*law, orbit=True)
     start = rotor.kinematics()
@@ -66,7 +66,7 @@ def test_a_shaft_in_static_equilibrium_stays_at_rest(train, reduction):
 
 def test_weak_springs_find_the_rigid_position_under_given_loads(train):
     """As at the alignment: loads given, the shape found, the springs nearly without force."""
-    rotor = Rotor(train)
+    rotor = Rotor.of_train(train)
     z = np.array(train.z)[[b.node for b in train.bearings]]
     model = rotor.model
     weight, moment = GRAVITY * train.mass, -GRAVITY * (tilted(model) @ model.gravity)
@@ -130,11 +130,11 @@ def test_starting_on_the_orbit_stays_on_it_with_second_order():
 
 @pytest.mark.parametrize("time", [0.0, 0.37])
 def test_start_from_the_positions_of_an_orbit_is_the_start_from_its_law(train, time):
-    by_law, by_positions = Rotor(train), Rotor(train)
+    by_law, by_positions = Rotor.of_train(train), Rotor.of_train(train)
     law = springs(by_law)
     by_law.start_from_law(*law, orbit=True, time=time)
     quarter = np.pi / 2 / train.speed
-    at_zero, later = Rotor(train), Rotor(train)
+    at_zero, later = Rotor.of_train(train), Rotor.of_train(train)
     at_zero.start_from_law(*law, orbit=True)
     later.start_from_law(*law, orbit=True, time=quarter)
     static = by_law.get_state().static.journals.reshape(-1, 4)
@@ -148,7 +148,7 @@ def test_start_from_the_positions_of_an_orbit_is_the_start_from_its_law(train, t
 
 
 def test_prescribed_positions_are_taken_exactly(train):
-    rotor = Rotor(train)
+    rotor = Rotor.of_train(train)
     rng = np.random.default_rng(0)
     static, cos, sin = (scale * rng.normal(size=(rotor.shaft.bearings, 4)) for scale in (1e-3, 1e-5, 1e-5))
     rotor.start_from_positions(static, cos, sin)
@@ -158,7 +158,7 @@ def test_prescribed_positions_are_taken_exactly(train):
 
 
 def test_laws_that_do_not_hold_the_shaft_are_refused(train):
-    rotor = Rotor(train)
+    rotor = Rotor.of_train(train)
     F0, K, C = springs(rotor)
     with pytest.raises(ValueError, match="not held"):
         rotor.start_from_law(F0, 0 * K, C, orbit=False)
@@ -210,13 +210,13 @@ def test_bytes_that_are_not_a_state_are_refused(spoil):
 
 def test_a_state_of_another_shaft_is_refused(train):
     with pytest.raises(ValueError, match="allowed are"):
-        Rotor(train).set_state(small_rotor().get_state())
+        Rotor.of_train(train).set_state(small_rotor().get_state())
 
 
 @pytest.mark.parametrize("stepped", [False, True], ids=["modal", "whirl"])
 def test_a_state_in_other_eigenvectors_is_refused(train, stepped):
     """As another kind of processor finds them: the numbers would mean another motion."""
-    rotor = Rotor(train)
+    rotor = Rotor.of_train(train)
     if stepped:
         rotor.step(0.0, 1e-4, np.zeros((2, 4)), np.zeros((2, 4, 4)), np.zeros((2, 4, 4)), train.speed)
     state = RotorState.from_bytes(rotor.get_state().to_bytes())
@@ -229,7 +229,10 @@ def test_a_state_in_other_eigenvectors_is_refused(train, stepped):
 
 
 def test_rotors_of_one_train_share_the_shaft_but_nothing_that_changes(train):
-    alone, other = Rotor(train), Rotor(train, unbalance=np.full(len(train.wheels), 0.1), gravity=0.0)
+    alone, other = (
+        Rotor.of_train(train),
+        Rotor.of_train(train, unbalance=np.full(len(train.wheels), 0.1), gravity=0.0),
+    )
     assert alone.shaft is other.shaft
     law = springs(alone)
     alone.start_from_law(*law, orbit=True)

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from rotor_fmu.vibration.affine_step import StepFailure
+from rotor_fmu.vibration.affine_step import NoFiniteResult
 from rotor_fmu.vibration.map_cache import CAPACITY
 from tests.rotor_fmu.small_shafts import linear_bearings, no_law, run, small_rotor, unbalance
 
@@ -216,6 +216,6 @@ def test_a_law_that_is_not_a_number_fails_and_leaves_the_state():
     before = rotor.get_state()
     K = K.copy()
     K[1, 2, 2] = math.nan
-    with pytest.raises(StepFailure, match="no finite result"):
+    with pytest.raises(NoFiniteResult, match="no finite result"):
         rotor.step(0.0, 0.01, F0, K, C, SPEED)
     assert rotor.get_state() is before

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.vibration.affine_step import AffineStep
+from rotor_fmu.vibration.coordinates import Compliance
 from tests.rotor_fmu.small_shafts import (
     linear_bearings,
     matrix_rotor,
@@ -101,7 +104,7 @@ def test_swings_on_springs_that_share_a_mass_do_not_grow(bearings, number):
         swing.append(abs(rotor.kinematics()[0, 0] - 1.0))
     assert max(swing[-1000:]) > 0.9 and max(swing) < 1.02
     total = 6.0 * number + bearings * number
-    assert total < 1.0 or rotor._stepper._nearer is not None
+    assert total < 1.0 or rotor.holds_mean
 
 
 def test_stiffness_numbers_bound_the_eigenvalues():
@@ -137,3 +140,48 @@ def test_stiff_bearings_keep_the_second_order():
     assert errors[0] < np.abs(exact).max()
     assert np.all(orders[1:] > 1.5)
     assert orders[-1] == pytest.approx(2.0, abs=0.1)
+
+
+class _Mass:
+    """Coordinates and maps of a free unit mass in each direction of a bearing."""
+
+    def __init__(self):
+        eye, zero = np.eye(4), np.zeros((4, 4))
+        self.flow = np.block([[eye, H * eye], [zero, eye]])
+        self.of_start = np.vstack([H**2 / 3.0 * eye, H / 2.0 * eye])
+        self.of_end = np.vstack([H**2 / 6.0 * eye, H / 2.0 * eye])
+        self.compliance = Compliance(self.of_start[None], self.of_end[None])
+
+    def journals(self, motion):
+        return motion.copy()
+
+    def coast(self, motion, wrench, rotation):
+        return self.flow @ motion + self.of_start @ wrench
+
+    def add_start(self, wrench, motion):
+        motion += self.of_start @ wrench
+
+    def add_end(self, wrench, motion):
+        motion += self.of_end @ wrench
+
+
+def test_the_wrenches_of_a_step_are_its_own_whatever_step_came_after():
+    """Impulse of the wrenches held is the change of momentum of the unit mass, also asked for later."""
+    mass, law = _Mass(), AffineStep(1)
+    rest = Equilibrium(np.zeros(4), np.zeros(4), np.zeros(4))
+    C, F0, start = np.zeros((1, 4, 4)), np.zeros((1, 4)), np.zeros(8)
+    start[:4] = 1e-4
+    stiff, soft = (np.eye(4)[None] * number * 6.0 / H**2 for number in (50.0, 0.1))
+
+    def step(K):
+        law.set_law(K, C)
+        return law.advance(mass, mass, start, start.reshape(1, 8), F0, np.zeros(4), None, rest)
+
+    end, nearer = step(stiff)
+    assert nearer is not None and step(soft)[1] is None
+    law.set_law(stiff, C)
+    first, last = law.held(nearer, F0, start, end, rest)
+    np.testing.assert_allclose(H / 2.0 * (first + last), end[4:], rtol=1e-12)
+    np.testing.assert_allclose(
+        mass.of_start[:4] @ first + mass.of_end[:4] @ last + start[:4], end[:4], rtol=1e-10
+    )
