@@ -73,7 +73,7 @@ def loaded(raw: dict) -> Scenario:
     "input",
     "characters in a title that TOML does not take as they are",
     "escaped: the scenario in record and checkpoint reads as it was",
-    guard="orchestrator.scenario.file:_toml_value",
+    guard="orchestrator.scenario.file:scenario_toml",
 )
 @given(settings_of_small())
 @settings(max_examples=200)
