@@ -91,7 +91,7 @@ def test_a_signal_before_the_run(small_fmus, tmp_path):
 import os, signal, sys
 from orchestrator.fmi import folder as fmu_folder
 from orchestrator.cli.main import main
-fmu_folder.refresh = lambda *_: os.kill(os.getpid(), signal.SIGTERM)
+fmu_folder.builder.refresh = lambda *_: os.kill(os.getpid(), signal.SIGTERM)
 sys.argv[0] = "bladeloss"
 main()
 """
