@@ -18,9 +18,6 @@ Array = NDArray[np.float64]
 BISECTIONS = 45
 """Of the eccentricity of the aligned journal; leaves 1e-13 of the clearance."""
 
-FARTHEST = 2.0
-"""Displacement in clearances to which a bearing is searched that is not isotropic: its bore may be wider."""
-
 DIRECTIONS = 60
 """Allowed to the search of a direction; some ten are usual."""
 
@@ -78,9 +75,8 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
         When a film does not carry its load at any position.
     """
     isotropic = np.array([ISOTROPIC in unit.file.promises for unit in system.bearings])
-    reach = np.where(isotropic, 1.0, FARTHEST)
     angle = np.zeros_like(loads)
-    share, turn, carried = _along(system, angle, loads, clearances, reach)
+    share, turn, carried = _along(system, angle, loads, clearances)
     angle = np.where(isotropic, turn, angle)
     ends = np.full((2, len(loads)), np.nan)  # directions from which the force must be turned forth and back
     turns = np.zeros_like(ends)
@@ -94,7 +90,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
         with np.errstate(invalid="ignore", divide="ignore"):
             between = ends[0] + np.clip(turns[0] / (turns[0] - turns[1]), 0.1, 0.9) * (ends[1] - ends[0])
         angle = np.where(searched, np.where(np.isfinite(between), between, angle + turn), angle)
-        found = zip(_along(system, angle, loads, clearances, reach), (share, turn, carried), strict=True)
+        found = zip(_along(system, angle, loads, clearances), (share, turn, carried), strict=True)
         share, turn, carried = (np.where(searched, new, old) for new, old in found)
         searched &= np.abs(turn) > ALIGNED
     if searched.any():
@@ -113,9 +109,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     return positions
 
 
-def _along(
-    system: System, angle: Array, loads: Array, clearances: Array, reach: Array
-) -> tuple[Array, Array, Array]:
+def _along(system: System, angle: Array, loads: Array, clearances: Array) -> tuple[Array, Array, Array]:
     """Displace journals in one direction until their films give the loads.
 
     Returns the displacements over the clearances, the angles by which the forces are off upwards, and their
@@ -124,7 +118,7 @@ def _along(
     """
     positions = np.zeros((len(loads), 4))
     along, down = clearances * np.sin(angle), -clearances * np.cos(angle)
-    low, high = np.zeros_like(loads), reach.copy()
+    low, high = np.zeros_like(loads), np.ones_like(loads)
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         positions[:, 0], positions[:, 1] = middle * along, middle * down
