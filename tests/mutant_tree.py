@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import multiprocessing
 import os
-import re
 import shutil
 import signal
 import sys
@@ -213,11 +213,14 @@ def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
 
 
 def kernel_modules(root: Path) -> set[str]:
-    """Modules with kernels, and those that they take constants from."""
+    """Modules with kernels, and those that they take constants or functions from; classes stay outside."""
     found = set()
     for path in (root / "bearing_fmu").rglob("*.py"):
-        imported = re.findall(r"^from (bearing_fmu\.[\w.]+) import", path.read_text(), flags=re.MULTILINE)
-        if "bearing_fmu.kernels.compiled" in imported:
+        imports = [n for n in ast.parse(path.read_text()).body if isinstance(n, ast.ImportFrom) and n.module]
+        if "bearing_fmu.kernels.compiled" in [node.module for node in imports]:
             found |= {path.relative_to(root).as_posix()}
-            found |= {f"{name.replace('.', '/')}.py" for name in imported}
-    return found
+            for node in imports:
+                names = [alias.name for alias in node.names]
+                if any(name.isupper() or name.islower() for name in names):
+                    found |= {f"{(node.module or '').replace('.', '/')}.py"}
+    return {name for name in found if (root / name).is_file()}
