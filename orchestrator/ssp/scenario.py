@@ -170,5 +170,5 @@ def _events(contents: Contents, end: float) -> list[dict[str, Any]]:
     return [
         {"wheel": wheel.name, "unbalance": unbalance, "phase": phase, "time": time}
         for wheel, unbalance, phase in lost
-        if unbalance > 0.0 and time < end
+        if unbalance != 0.0 and time < end
     ]

@@ -22,7 +22,7 @@ from orchestrator.master.interrupt import handled, raise_at_once
 from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
 from orchestrator.results.folder import partial_folder
 
-COMMAND = (sys.executable, "-m", "orchestrator.cli.main", "run")
+COMMAND = (sys.executable, "-P", "-m", "orchestrator.cli.main", "run")
 """The own command, by the interpreter that runs this."""
 DIED = "process-died"
 """Outcome of a run whose process ended without saying how the run ended."""

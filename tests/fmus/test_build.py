@@ -99,10 +99,8 @@ def test_sources_follow_imports():
     assert set(files["spring_unit"]) == {"__init__.py", "facade.py"}
     assert set(files["fmus"]) == {
         "__init__.py",
-        "failure.py",
-        "layout.py",
-        "slave.py",
-        "state.py",
-        "store.py",
-        "variable.py",
+        *(f"port/{name}.py" for name in ("__init__", "balance", "bearing", "connector", "failure")),
+        *(f"port/{name}.py" for name in ("rotor_variables", "start", "variable")),
+        *(f"unit/{name}.py" for name in ("__init__", "failure", "hooks", "layout", "slave")),
+        *(f"unit/{name}.py" for name in ("state", "values")),
     }

@@ -67,9 +67,9 @@ def test_a_bare_host_keeps_the_packages_in_the_cache_folder(run, spring_fmu, tmp
     cache = tmp_path / "cache" / "bladeloss"
     assert {place.parent.parent for place in places.values()} == {cache}
     assert sorted(p.name.split("-")[0] for p in cache.iterdir()) == ["fmus", "spring_unit"]
-    written = (places["fmus"] / "slave.py").stat().st_mtime_ns
+    written = (places["fmus"] / "unit" / "slave.py").stat().st_mtime_ns
     _, again = run(spring_fmu, folder="elsewhere")
-    assert again == places and (places["fmus"] / "slave.py").stat().st_mtime_ns == written
+    assert again == places and (places["fmus"] / "unit" / "slave.py").stat().st_mtime_ns == written
 
 
 def test_without_a_cache_folder_the_resources_serve(run, spring_fmu, tmp_path, monkeypatch):

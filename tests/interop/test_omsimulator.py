@@ -97,7 +97,7 @@ def test_the_rotor_starts_on_nothing_that_it_does_not_name(host):
             changes[v.name] = 1.01 * float(v.start) + (1e-5 if ".start." in v.name else 1e-2)
     for name, value in changes.items():
         for other, before, after in zip(names, plain, values(**{name: value}), strict=True):
-            rounding = 1e-9 * float(unit.variables[other].nominal)
+            rounding = 1e-9 * float(unit.variables[other].nominal or 1.0)
             assert name in named[other] or after == pytest.approx(before, rel=1e-9, abs=rounding), (
                 name,
                 other,

@@ -94,7 +94,7 @@ def test_values_that_could_mean_anything_are_refused(
 
 @pytest.mark.parametrize(
     ("blade", "words"),
-    [(3000.0, "event.unbalance = 3000.0; allowed is at most"), (-0.3, "event.unbalance = -0.3; allowed is")],
+    [(3000.0, "unbalance = 3000.0; allowed is at most"), (-0.3, "unbalance = -0.3; allowed is")],
 )
 def test_a_blade_has_the_limits_of_a_scenario(blade, words, small_ssp, small_fmus, room, tmp_path):
     name = "wheel[1].blade_unbalance"

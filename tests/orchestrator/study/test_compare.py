@@ -48,7 +48,7 @@ def compared(tmp_path_factory):
     """A short comparison with its check, as a user would start it."""
     folder = tmp_path_factory.mktemp("compare")
     (folder / "short.toml").write_text(SHORT)
-    command = [sys.executable, "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
+    command = [sys.executable, "-P", "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
     command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
