@@ -5,7 +5,8 @@ products fused, nothing else is relaxed.
 
 numba keeps compiled code next to the sources and renews it when the file of a function changes, but
 not when a function it calls changes in another file.  Here the whole package is the unit: any
-change of a module renews all its kernels.
+change of a module renews all its kernels, and those of other packages that draw on them; a kernel of
+another package is renewed by its own file, too.
 """
 
 from __future__ import annotations
@@ -27,16 +28,30 @@ _OPTIONS: dict[str, Any] = {
 }
 
 
+_PACKAGE = Path(__file__).parents[1]
+
+
 def _digest() -> str:
     """Digest of the sources of this package."""
     digest = hashlib.sha256()
-    package = Path(__file__).parents[1]
-    for path in sorted(package.rglob("*.py")):
-        digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
 
 _SOURCES = _digest()
+
+
+def _stamp(function: Callable[..., Any]) -> str:
+    """Digest of all that the code of `function` follows from: this package, and files outside it.
+
+    These are its own, and those of the kernels that the function around it was given, see `variant`.
+    """
+    given = (cell.cell_contents for cell in function.__closure__ or ())
+    drawn_on = (function, *(kernel.py_func for kernel in given if hasattr(kernel, "py_func")))
+    files = {Path(one.__code__.co_filename) for one in drawn_on}
+    outside = sorted(path for path in files if not path.is_relative_to(_PACKAGE))
+    return _SOURCES + "".join(hashlib.sha256(path.read_bytes()).hexdigest() for path in outside)
 
 
 def kernel(function: _Function) -> _Function:
@@ -82,7 +97,7 @@ def _compile(function: _Function, more: dict[str, Any]) -> _Function:
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
     cache = dispatcher._cache
-    cache._cache_file._source_stamp = _SOURCES
+    cache._cache_file._source_stamp = _stamp(function)
     # numba's own key holds what a function draws on, which is another object in every process
     cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
     save = cache.save_overload

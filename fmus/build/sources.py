@@ -11,15 +11,17 @@ from pathlib import Path
 def package_folder(package: str) -> Path:
     """Return the folder of an importable package.
 
+    A folder of the same name in the working folder, such as that of built FMUs, is none: it has no module.
+
     Raises
     ------
     ModuleNotFoundError
         If there is no such package.
     """
-    spec = importlib.util.find_spec(package)
-    if spec is None or not spec.submodule_search_locations:
+    spec = importlib.util.find_spec(f"{package}.__init__")
+    if spec is None or spec.origin is None:
         raise ModuleNotFoundError(f"package {package!r} cannot be found")
-    return Path(spec.submodule_search_locations[0])
+    return Path(spec.origin).parent
 
 
 def source_files(modules: Iterable[str], packages: Sequence[str]) -> dict[str, dict[str, bytes]]:

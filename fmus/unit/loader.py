@@ -103,10 +103,10 @@ def _provide(package: str, digest: str, own: Path) -> None:
         checked = getattr(loaded, _CHECKED)  # per list of files: units may carry different parts
         key = tuple(names)
         if key not in checked:
-            checked[key] = _digest(Path(loaded.__path__[0]), names)
+            checked[key] = _digest(_folder_of(package), names)
         if checked[key] != digest:
             raise ImportError(
-                f"the package {package} loaded in this process ({loaded.__path__[0]}) differs from the one "
+                f"the package {package} loaded in this process ({_folder_of(package)}) differs from the one "
                 "this FMU was built from; rebuild the FMU, or run it in a process of its own"
             )
         return
@@ -120,6 +120,12 @@ def _provide(package: str, digest: str, own: Path) -> None:
         importlib.invalidate_caches()
     module = importlib.import_module(package)
     setattr(module, _CHECKED, {tuple(names): digest})
+
+
+def _folder_of(package: str) -> Path:
+    """Return the folder of a loaded package; a mere folder of its name, first on the path, is none."""
+    spec = importlib.util.find_spec(f"{package}.__init__")
+    return Path(spec.origin).parent if spec is not None and spec.origin else Path()
 
 
 def _sources(folder: Path) -> list[Path]:

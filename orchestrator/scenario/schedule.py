@@ -36,10 +36,6 @@ class Schedule:
         """Instants of the events in s, ascending, each once."""
         return tuple(sorted({event.time for event in self.events}))
 
-    def speed_at(self, time: float) -> float:
-        """Rotor speed at an instant in rad/s."""
-        return self.speed
-
     def revolutions(self, start: float, end: float) -> float:
         """Revolutions of the rotor from one instant to another."""
         return (end - start) * self._frequency

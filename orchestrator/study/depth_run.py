@@ -19,6 +19,7 @@ from orchestrator.results.statistics import (
     time_mean,
 )
 from orchestrator.results.windows import Phase, Window, phases
+from orchestrator.scenario.schedule import from_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -156,7 +157,8 @@ def _figures(record: xr.Dataset, bearing: str, phase: Phase, threshold: float) -
 def _start(record: xr.Dataset, bearing: str, phase: Phase) -> StartTransient | None:
     time, gap = np.asarray(record["time"].values, dtype=float), series(record, "least_gap", bearing)
     span = phase.span
-    length = _whole_revolutions(record, min(phase.mean.length, span.length / 2))
+    schedule = from_attributes(record.attrs)
+    length = schedule.later(0.0, schedule.whole(0.0, min(phase.mean.length, span.length / 2)))
     windows = Window(span.start, span.start + length), Window(span.end - length, span.end)
     masks = [window.mask(time) for window in windows]
     if length == 0.0 or min(int(mask.sum()) for mask in masks) < 2:
@@ -164,12 +166,3 @@ def _start(record: xr.Dataset, bearing: str, phase: Phase) -> StartTransient | N
     means = [time_mean(time[mask], gap[mask]) for mask in masks]
     harmonics = [half_peak_to_peak(gap[mask]) for mask in masks]
     return StartTransient(*windows, *means, *harmonics)
-
-
-def _whole_revolutions(record: xr.Dataset, length: float) -> float:
-    """The length of as many revolutions as fit [s]; the length itself where the speed is not recorded."""
-    speed = abs(float(record.attrs.get("speed", 0.0)))
-    if speed == 0.0:
-        return length
-    revolution = 2.0 * np.pi / speed
-    return float(np.floor(length / revolution + 1e-6) * revolution)

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import pytest
 from fmpy.validation import validate_fmu
@@ -10,7 +11,7 @@ from fmpy.validation import validate_fmu
 from bearing_fmu.recipe import bearing_recipe
 from fmus.build import builder as build
 from fmus.build.archive import guid_in, write_archive
-from fmus.build.sources import source_files
+from fmus.build.sources import package_folder, source_files
 from rotor_fmu.recipe import rotor_recipe
 from tests.fmus.conftest import spring_recipe
 
@@ -104,3 +105,13 @@ def test_sources_follow_imports():
         *(f"unit/{name}.py" for name in ("__init__", "failure", "hooks", "layout", "slave")),
         *(f"unit/{name}.py" for name in ("state", "values")),
     }
+
+
+def test_a_folder_of_the_same_name_is_no_package(tmp_path):
+    """Built FMUs lie in a folder ``fmus``; a process that starts beside it finds the package all the same."""
+    (tmp_path / "fmus").mkdir()
+    code = "from fmus.build.sources import package_folder; print(package_folder('fmus'))"
+    found = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert Path(found.stdout.strip()) == package_folder("fmus") and (package_folder("fmus") / "build").is_dir()

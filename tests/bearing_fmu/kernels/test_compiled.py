@@ -17,6 +17,14 @@ from bearing_fmu.kernels.compiled import kernel
 def twice(x):
     return 2.0 * x
 """
+MADE = """
+from bearing_fmu.kernels.compiled import variant
+
+def around(inner):
+    def outer(x):
+        return inner(x) + 1.0
+    return variant("plus", outer)
+"""
 
 
 @pytest.fixture
@@ -61,3 +69,19 @@ def test_no_room_to_keep_compiled_code(folder):
     assert not list(folder.rglob("*.nbc"))
     done = compute(folder)
     assert done.stdout == "3.0\n" and list(folder.rglob("*.nbc"))
+
+
+def test_a_kernel_of_another_package_is_renewed_with_its_file(folder):
+    """A depth of one's own is compiled by this package; its code is not taken from an older version."""
+    assert compute(folder).stdout == "3.0\n"
+    assert list(folder.rglob("*.nbc"))
+    (folder / "kernels.py").write_text(MODULE.replace("2.0 * x", "4.0 * x"))
+    assert compute(folder).stdout == "6.0\n"
+
+
+def test_a_variant_is_renewed_with_the_kernels_that_it_is_given(folder):
+    (folder / "made.py").write_text(MADE)
+    around = "from kernels import twice; from made import around; print(around(twice)(1.5))"
+    assert compute(folder, around).stdout == "4.0\n"
+    (folder / "kernels.py").write_text(MODULE.replace("2.0 * x", "4.0 * x"))
+    assert compute(folder, around).stdout == "7.0\n"
