@@ -114,4 +114,6 @@ def test_a_folder_of_the_same_name_is_no_package(tmp_path):
     found = subprocess.run(
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
     )
-    assert Path(found.stdout.strip()) == package_folder("fmus") and (package_folder("fmus") / "build").is_dir()
+    assert (
+        Path(found.stdout.strip()) == package_folder("fmus") and (package_folder("fmus") / "build").is_dir()
+    )
