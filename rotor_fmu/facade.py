@@ -83,6 +83,7 @@ class RotorSlave(UnitSlave):
             self._built_for = None
             self._rotor = Rotor.of_train(self._train, **built_for)
             self._built_for = built_for
+            self.strings[self.layout["reduction.used"]] = self._rotor.reduction_used
 
     def start(self) -> None:
         """Start from the laws at the inputs or from the start parameters."""

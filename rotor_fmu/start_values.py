@@ -1,7 +1,8 @@
 """Start values of a train's rotor unit: it hovers, balanced, under constant forces.
 
 For the builder.  The forces are the target loads of the bearings; the shape is the
-catenary of the shaft on these forces, with its whirl under the nominal unbalance.
+catenary of the shaft on these forces, with its whirl under the nominal unbalance; both
+of the unreduced shaft, so that they do not depend on the reduction chosen later.
 """
 
 from __future__ import annotations
@@ -9,14 +10,19 @@ from __future__ import annotations
 import numpy as np
 
 from fmus import port
+from rotor_fmu.linear.harmonic import unbalance_response
+from rotor_fmu.linear.whirl import LinearBearings
+from rotor_fmu.reduction.condensation import condense_static
+from rotor_fmu.shaft.matrices import assemble
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
-from rotor_fmu.vibration.rotor import Rotor
 
 _SPRING = 1e4
 """Holds the rigid-body motion while the shape is solved [N/m], [N m/rad]; soft beside any shaft."""
 
 _ROUNDS = 4
+
+_GRAVITY = 9.80665
 
 
 def default_starts(train: Train) -> dict[str, port.Value]:
@@ -32,18 +38,19 @@ def default_starts(train: Train) -> dict[str, port.Value]:
     dict
         Speed, forces, journal positions and 1X orbit, unbalances.
     """
-    rotor = Rotor.of_train(train)
-    bearings = len(train.bearings)
+    model = assemble(train)
+    static, bearings = condense_static(model, _GRAVITY), len(train.bearings)
     loads = np.zeros((bearings, 4))
-    loads[:, 1] = target_loads(train)
+    loads[:, 1] = target_loads(train, _GRAVITY)
     springs = np.tile(_SPRING * np.eye(4), (bearings, 1, 1))
-    none, shape = np.zeros_like(springs), np.zeros((bearings, 4))
+    shape = np.zeros((bearings, 4))
     for _ in range(_ROUNDS):  # the springs' share goes into F0 until it has vanished
-        rotor.start_from_law(loads + _SPRING * shape, springs, none, orbit=False)
-        shape = rotor.kinematics()[:, :4]
-    rotor.start_from_law(loads + _SPRING * shape, springs, none, orbit=True)
-    now = rotor.kinematics()
-    parts = {"": shape, "_cos": now[:, :4] - shape, "_sin": now[:, 4:] / train.speed}
+        shape = static.under_law((loads + _SPRING * shape).ravel(), springs).journals.reshape(-1, 4)
+    phases = np.exp(1j * np.array([wheel.unbalance_phase for wheel in train.wheels]))
+    supports = LinearBearings(springs, np.zeros_like(springs))
+    whirl = unbalance_response(model, train.speed, supports, np.array(train.nominal_unbalance) * phases)
+    orbit = whirl.shape[model.bearing_dofs]
+    parts = {"": shape, "_cos": orbit.real, "_sin": -orbit.imag}
     starts: dict[str, port.Value] = {port.SPEED: train.speed}
     for i in range(bearings):
         starts[port.at_bearing(i + 1, "F0.Fy")] = float(loads[i, 1])

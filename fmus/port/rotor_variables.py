@@ -23,6 +23,14 @@ _ROTOR_PARAMETERS: tuple[Variable, ...] = (
         "reduction", "parameter", "", "irs, irs-plain, guyan, craig-bampton, none", "irs", kind="String"
     ),
     Variable(
+        "reduction.used",
+        "calculatedParameter",
+        "",
+        "reduction carried out; and why, if it is another one than asked for",
+        kind="String",
+        starts_on=("reduction",),
+    ),
+    Variable(
         "start.from_law",
         "parameter",
         "",

@@ -169,7 +169,8 @@ class UnitSlave(Hooks, Fmi2Slave):
         return [value != 0.0 for value in self.get_real(vrs)]
 
     def get_string(self, vrs: list[int]) -> list[str]:
-        """Return String values."""
+        """Return String values, computed first where that is due."""
+        self._update(vrs, None)
         return [self.strings.get(i, "") for i in vrs]
 
     def set_real(self, vrs: list[int], values: Sequence[float]) -> None:

@@ -49,6 +49,9 @@ def conclude(
         summary = replace(summary, certificate=certificate)
         result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
     console.print(SummaryTable(summary))
+    asked, used = case.scenario.reduction, result.record.attrs.get("reduction_used")
+    if used not in (None, asked):
+        console.print(f"Reduction: {used}", highlight=False, soft_wrap=True)
     outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
     if outcome.ok or summary.phases:
         try:

@@ -42,6 +42,8 @@ from rotor_fmu.train.train import Train
 WORTH_A_THREAD = 4
 """Bearings with a slow film from which a second thread gains more than its handing over costs."""
 
+_REDUCTION = "reduction.used"
+
 
 @dataclass(frozen=True)
 class Execution:
@@ -177,6 +179,9 @@ class _TimeLoop:
             self._keepers["ledger"] = self._ledger
             self._observers.append(self._ledger)
         self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+        self._reduction = (
+            system.rotor.get_string(_REDUCTION) if _REDUCTION in system.rotor.file.variables else ""
+        )
 
     def run(self, announce: Progress, execution: Execution) -> Result:
         """Carry it to its end."""
@@ -231,6 +236,7 @@ class _TimeLoop:
 
     def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
         case = self._case
-        return make_record(
+        record = make_record(
             recorder, self._start, case.scenario, case.train, outcome, message, self._provenance
         )
+        return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

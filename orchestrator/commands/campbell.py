@@ -13,7 +13,7 @@ from orchestrator.linear.campbell import free_data, supported_data
 from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
 from orchestrator.linear.tables import COLUMNS_EXPLAINED, error_text, shaft_column, table_of, whirl_name
 from orchestrator.results.figures.campbell import free_figure, supported_figure
-from rotor_fmu.linear.analysis import WhirlError
+from rotor_fmu.linear.analysis import WhirlError, free_branches
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,9 +44,25 @@ def run(request: LinearRequest, console: Console, *, supported: bool, count: int
     try:
         data, iterations = free_data(case, count, highest)
     except WhirlError as error:
-        raise OrchestratorError(f"--count {count}: {error}") from None
+        has = _bending_modes(case, count, highest)
+        if has in (0, count):
+            raise OrchestratorError(f"--count {count}: {error}") from None
+        console.print(f"The shaft has {has} bending modes in each direction, not {count}.", highlight=False)
+        data, iterations = free_data(case, has, highest)
     write_results(case, [data, iterations], free_table(case, data), free_figure(data, iterations, case.train))
     return 0
+
+
+def _bending_modes(case: LinearCase, count: int, highest: float) -> int:
+    """How many bending modes the unreduced shaft has in each direction, up to a number."""
+    while count > 0:
+        try:
+            free_branches(case.shaft, case.shaft.z, [0.0, HERTZ * highest], count)
+        except WhirlError as error:
+            count = min(error.found, count - 1)
+        else:
+            break
+    return count
 
 
 def free_table(case: LinearCase, data: xr.Dataset) -> Table:

@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from rich.table import Table
 
+from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
 from orchestrator.linear.tables import COLUMNS_EXPLAINED, shaft_column, table_of
@@ -36,6 +37,11 @@ def run(request: LinearRequest, console: Console, *, highest: float) -> int:
         For anything wrong with the input; `EquilibriumError` when there is no operating point.
     """
     case = linear_case(request, console)
+    if not case.unbalance.any():
+        raise OrchestratorError(
+            f"{request.source}: no wheel of train {case.train.name} has an unbalance, so nothing responds; "
+            "give the train wheels, or the scenario unbalance.grade or unbalance.at"
+        )
     rated = case.train.speed / HERTZ
     rotation = np.arange(1.0, np.ceil(highest / STEP) + 1.0) * STEP
     if rated <= highest:

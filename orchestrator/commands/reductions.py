@@ -51,9 +51,10 @@ def run(request: LinearRequest, console: Console) -> int:
         )
         for name in REDUCTIONS
     ]
-    iterations = iteration_data(case)
-    console.print(iteration_table(iterations))
-    data = [error_data(case, reports), iterations, case.bearing_data]
+    data = [error_data(case, reports), case.bearing_data]
+    if case.reduced("irs-plain").history:
+        data.insert(1, iteration_data(case))
+        console.print(iteration_table(data[1]))
     write_results(case, data, error_table(case, reports), None)
     return 0
 
@@ -70,7 +71,7 @@ def error_data(case: LinearCase, reports: list[ReductionReport]) -> xr.Dataset:
             )
         },
         {
-            "shaft": [report.method for report in reports],
+            "shaft": list(REDUCTIONS),
             "quantity": list(QUANTITIES.values()),
             "rotation": ("rotation", reports[0].speeds / HERTZ, {"units": "Hz"}),
         },
@@ -126,8 +127,8 @@ def error_table(case: LinearCase, reports: list[ReductionReport]) -> Table:
     )
     table.add_column("largest relative error of", no_wrap=True)
     table.add_column("Hz", justify="right")
-    for report in reports:
-        table.add_column(f"{shaft_column(report.method)}\n{report.size}", justify="right")
+    for method, report in zip(REDUCTIONS, reports, strict=True):
+        table.add_column(f"{shaft_column(method)}\n{report.size}", justify="right")
     for key, name in QUANTITIES.items():
         rows = np.array([_over_speed(report, key) for report in reports]).T
         if key == "static":

@@ -180,6 +180,11 @@ class Unit:
             converted = _VALUE_CONVERSION[variable.type](value)
             self._call(f"set{variable.type}", [variable.valueReference], [converted])
 
+    def get_string(self, name: str) -> str:
+        """Get a String variable by name."""
+        (text,) = self._call("getString", [self.variable(name).valueReference])
+        return text.decode() if isinstance(text, bytes) else str(text)
+
     def get_real(self, names: Sequence[str]) -> NDArray[np.float64]:
         """Get Real variables by name."""
         return np.array(self._call("getReal", self._references(names)))

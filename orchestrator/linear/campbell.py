@@ -94,12 +94,16 @@ def supported_data(case: LinearCase, count: int, highest: float) -> xr.Dataset:
     bearings, number = case.operating_point.bearings, 2 * count
     found = campbell(case.shaft, HERTZ * rotation, number + OVERDAMPED, bearings=bearings)
     kept = [_whirling(modes, number) for modes in found]
-    number = min(len(k) for k in kept)
+    offers = {
+        method: campbell(case.reduced(method), HERTZ * rotation, number + 2 * OVERDAMPED, bearings=bearings)
+        for method in REDUCTIONS
+    }
+    fewest = min(len(modes.eigenvalues) for offered in offers.values() for modes in offered)
+    number = min(fewest, *(len(k) for k in kept))
     exact = np.array([modes.eigenvalues[k[:number]] for modes, k in zip(found, kept, strict=True)])
     direction = np.array([modes.direction[k[:number]] for modes, k in zip(found, kept, strict=True)])
     values = {FULL: exact}
-    for method in REDUCTIONS:
-        offered = campbell(case.reduced(method), HERTZ * rotation, number + 2 * OVERDAMPED, bearings=bearings)
+    for method, offered in offers.items():
         values[method] = np.array([matched(a, b.eigenvalues) for a, b in zip(exact, offered, strict=True)])
     eigenvalues = np.array(list(values.values()))
     error = np.abs(eigenvalues - eigenvalues[0]) / np.abs(eigenvalues[0])

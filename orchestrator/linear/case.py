@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 REDUCTIONS: tuple[Method, ...] = ("irs", "irs-plain", "guyan", "craig-bampton")
 assert set(REDUCTIONS) | {"none"} == set(METHODS)
 FULL = "unreduced"
+
+LEAST_SIZE = 24
+"""Degrees of freedom below which no shaft is reduced to half its own."""
 
 HERTZ = 2.0 * np.pi
 """rad/s of one revolution a second."""
@@ -96,12 +99,15 @@ class LinearCase:
         The train.
     console : rich.console.Console
         For what happens meanwhile.
+    told : set of str
+        What the console has been told about reductions.
     """
 
     request: LinearRequest
     scenario: Scenario
     train: Train
     console: Console
+    told: set[str] = field(default_factory=set)
 
     @property
     def shaft(self) -> ShaftModel:
@@ -109,13 +115,17 @@ class LinearCase:
         return unreduced_shaft(self.train)
 
     def reduced(self, method: Method) -> ReducedShaft:
-        """The shaft under a reduction."""
-        return reduced_shaft(self.train, method, self.size)
+        """The shaft under a reduction, or under the one that took its place; then the console is told."""
+        shaft = reduced_shaft(self.train, method, self.size)
+        if shaft.reason and shaft.carried_out not in self.told:
+            self.told.add(shaft.carried_out)
+            self.console.print(f"Reduction: {shaft.carried_out}", highlight=False, soft_wrap=True)
+        return shaft
 
     @property
     def size(self) -> int:
         """Degrees of freedom to which the shaft is reduced: as in runs, but of a small shaft half its own."""
-        return min(DEFAULT_SIZE, self.shaft.size // 2)
+        return min(DEFAULT_SIZE, max(self.shaft.size // 2, LEAST_SIZE), self.shaft.size)
 
     @property
     def shafts(self) -> dict[str, ShaftModel | ReducedShaft]:

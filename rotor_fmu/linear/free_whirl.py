@@ -12,14 +12,15 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
-import scipy.linalg as sl
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.linear.whirl import eigenmodes
-from rotor_fmu.reduction.irs import irs_iterations
-from rotor_fmu.reduction.reduce import DEFAULT_SIZE, ReducedShaft, default_masters, project
-from rotor_fmu.reduction.ritz import Basis
+from rotor_fmu.reduction.irs import elastic_scale, irs_iterations
+from rotor_fmu.reduction.masters import default_masters
+from rotor_fmu.reduction.reduce import DEFAULT_SIZE, ReducedShaft, project
+from rotor_fmu.reduction.ritz import Basis, partition, static_modes
+from rotor_fmu.shaft.banded import lowest_modes
 from rotor_fmu.shaft.matrices import ShaftModel
 
 Array = NDArray[np.float64]
@@ -31,9 +32,16 @@ RIGID = 0.1
 STILL = 0.1
 """Frequency below which nothing whirls [rad/s]."""
 
+OVERDAMPED = 0.95
+"""Damping ratio from which a mode does not whirl; the highest of a fine mesh, damped as K, are beyond."""
+
 
 class WhirlError(RuntimeError):
-    """Modes that could not be found."""
+    """Modes that could not be found; `found` were in each direction."""
+
+    def __init__(self, message: str, found: int) -> None:
+        super().__init__(message)
+        self.found = found
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +111,7 @@ def irs_iterates(model: ShaftModel, last: int, *, size: int = DEFAULT_SIZE) -> I
         Reduced degrees of freedom in both planes together.
     """
     masters = default_masters(model, min(size, 4 * model.nodes) // 2)
-    bases = irs_iterations(model.plane_mass, model.plane_stiffness, masters)
+    bases = irs_iterations(model.plane_mass, model.stiffness_root, masters)
     return (project(model, basis, "irs-plain") for basis in islice(bases, last + 1))
 
 
@@ -120,8 +128,10 @@ def modal_truncation(model: ShaftModel, size: int = DEFAULT_SIZE) -> ReducedShaf
     size : int
         Modes of both planes together, two rigid-body motions a plane included.
     """
-    last = min(size // 2, 2 * model.nodes) - 1
-    _, modes = sl.eigh(model.plane_stiffness, model.plane_mass, subset_by_index=(0, last))
+    mass, stiffness = model.plane_mass, model.plane_stiffness
+    few = static_modes(stiffness, partition(stiffness, default_masters(model, 8)))
+    shift = elastic_scale(mass, model.stiffness_root, few)
+    _, modes = lowest_modes(mass, stiffness, min(size // 2, 2 * model.nodes), shift)
     return project(model, Basis(modes), "modal truncation")
 
 
@@ -132,16 +142,19 @@ def _branches(shaft: ShaftModel | ReducedShaft, z: Array, speed: float, count: i
     wanted = min(2 * count + 8, available)
     while True:
         values, vectors = eigenmodes(*matrices, wanted)
-        values = values[_elastic(vectors[: available // 2], recovery, z)]
-        frequency = np.sort(values.imag)
+        all_found = len(values) >= available - 8
+        whirling = np.abs(values.real) < OVERDAMPED * np.abs(values)
+        values, vectors = values[whirling], vectors[: available // 2, whirling]
+        frequency = np.sort(values[_elastic(vectors, recovery, z)].imag)
         backward, forward = -frequency[frequency < -STILL][::-1], frequency[frequency > STILL]
         if min(len(backward), len(forward)) >= count:
             return backward[:count], forward[:count]
-        if len(values) >= available - 8 or wanted >= available:
+        if all_found or wanted >= available:
             fewer = min(len(backward), len(forward))
             raise WhirlError(
                 f"at {speed:.4g} rad/s only {fewer} of {count} bending modes in each direction "
-                f"were found; ask for fewer, or keep more than {available} degrees of freedom"
+                f"were found; ask for fewer, or keep more than {available} degrees of freedom",
+                fewer,
             )
         wanted = min(wanted + count, available)
 

@@ -116,7 +116,7 @@ def reduction_report(
     unbalance : array_like of complex, (n_w,)
         U exp(i phase) of each wheel [kg m].
     count : int
-        Modes to compare; two whirl directions count as two.
+        Modes to compare, fewer where the shafts have not as many; two whirl directions count as two.
     elastic_above : float
         Free-free modes below this frequency [rad/s] are rigid-body motion.
 
@@ -126,27 +126,31 @@ def reduction_report(
         Both results and their differences.
     """
     free = [
-        np.array([modes.frequency for modes in campbell(shaft, speeds, count, above=elastic_above)])
+        [modes.frequency for modes in campbell(shaft, speeds, count, above=elastic_above)]
         for shaft in (model, reduced)
     ]
+    both = min(len(frequencies) for shaft in free for frequencies in shaft)
     wanted, offered = (
-        campbell(shaft, speeds, number, bearings=bearings)
+        [modes.eigenvalues for modes in campbell(shaft, speeds, number, bearings=bearings)]
         for shaft, number in ((model, count), (reduced, count + 8))
     )
-    exact = np.array([modes.eigenvalues for modes in wanted])
-    nearest = np.array([matched(a, modes.eigenvalues) for a, modes in zip(exact, offered, strict=True)])
+    number = min(len(values) for values in wanted + offered)
+    exact = np.array([values[np.sort(np.argsort(np.abs(values))[:number])] for values in wanted])
+    nearest = np.array([matched(a, values) for a, values in zip(exact, offered, strict=True)])
     static = [static_response(shaft, bearings)[1][:, :2] for shaft in (model, reduced)]
     forces = [
         np.array([r.wrench[:, :2] for r in unbalance_responses(shaft, speeds, bearings, unbalance)])
         for shaft in (model, reduced)
     ]
     largest = np.abs(forces[0]).max(axis=(1, 2), keepdims=True)
+    largest[largest == 0.0] = 1.0  # no unbalance, no force, no error
+    full, own = (np.array([frequencies[:both] for frequencies in shaft]) for shaft in free)
     return ReductionReport(
         method=reduced.method,
         size=reduced.size,
         iterations=max(len(reduced.history) - 1, 0),
         speeds=np.array(speeds, dtype=np.float64),
-        free=Pair(free[0], free[1], free[0]),
+        free=Pair(full, own, full),
         supported=Pair(exact, nearest, np.abs(exact)),
         static=Pair(static[0], static[1], np.abs(static[0]).max()),
         unbalance=Pair(forces[0], forces[1], largest),

@@ -20,6 +20,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from rotor_fmu.shaft.banded import lower_band
 from rotor_fmu.shaft.matrices import ShaftModel
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
@@ -122,7 +123,7 @@ def condense_static(model: ShaftModel, gravity: float) -> CondensedShaft[np.floa
     loads = np.zeros((model.size, 1 + len(dofs)))
     loads[:, 0] = gravity * model.gravity
     loads[dofs, 1 + np.arange(len(dofs))] = 1.0
-    band = _lower_band(model)
+    band = lower_band(model.K)
     np.add.at(band[0], dofs, reference)
     shapes = scipy.linalg.solveh_banded(band, loads, lower=True)
     return _condensed(shapes, shapes[dofs], reference)
@@ -171,16 +172,6 @@ def _springs(model: ShaftModel, frequency: float) -> Array:
     radial = float(across @ (model.M @ across)) / count * frequency**2
     arm = (model.z[-1] - model.z[0]) / count or 1.0
     return np.tile([radial, radial, radial * arm**2, radial * arm**2], count)
-
-
-def _lower_band(model: ShaftModel) -> Array:
-    """K in LAPACK's lower band storage."""
-    K = model.K.tocoo()
-    row, column = K.row, K.col
-    below = row >= column
-    band = np.zeros((int((row - column).max(initial=0)) + 1, model.size))
-    np.add.at(band, (row[below] - column[below], column[below]), K.data[below])
-    return band
 
 
 def _solve(matrix: NDArray[Scalar], rhs: NDArray[Scalar], what: str) -> NDArray[Scalar]:

@@ -3,21 +3,22 @@
 A rotor of circular sections is reduced in one plane and the basis used in both.
 The gyroscopic matrix is left out of the basis (it is projected by it).
 
-`irs-plain` is the paper's iterated IRS.  It converges to free-free modal truncation:
+`irs-plain` is iterated IRS alone.  It converges to free-free modal truncation:
 free-free frequencies are near exact, but the static flexibility at the bearings suffers.
 `irs`, the default, complements its lowest modes by static and gyroscopic ones, at equal size.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.irs import complemented, improved_reduced_system
+from rotor_fmu.reduction.irs import ReductionError, complemented, improved_reduced_system
+from rotor_fmu.reduction.masters import default_interface, default_masters
 from rotor_fmu.reduction.ritz import Basis, craig_bampton, guyan, symmetric
 from rotor_fmu.shaft.matrices import ShaftModel, plane_x, plane_y
 
@@ -65,7 +66,9 @@ class ReducedShaft:
     gravity : ndarray, (m,)
         Gravity load per unit of g.
     method : str
-        The reduction.
+        The reduction that was carried out.
+    reason : str
+        One line: why another one than was asked for; empty if it is the one asked for.
     history : tuple of tuple of float
         For IRS the natural frequencies [rad/s] of the elastic modes of one plane after each iteration,
         the first entry being Guyan's; else empty.
@@ -80,12 +83,18 @@ class ReducedShaft:
     wheels: Array
     gravity: Array
     method: str
+    reason: str = ""
     history: tuple[tuple[float, ...], ...] = ()
 
     @property
     def size(self) -> int:
         """Number m of reduced coordinates."""
         return len(self.M)
+
+    @property
+    def carried_out(self) -> str:
+        """The reduction in a line, with the reason where it is another one than was asked for."""
+        return f"{self.method}; {self.reason}" if self.reason else self.method
 
 
 def reduce(
@@ -117,37 +126,63 @@ def reduce(
     Returns
     -------
     ReducedShaft
-        The reduced shaft.
+        The reduced shaft.  Its `method` is another one than asked for, with a `reason`, in two cases: none
+        where the shaft has no more degrees of freedom than are to be kept, Craig-Bampton where IRS does not
+        converge within `max_iterations`.
 
     Raises
     ------
     ValueError
         If the method is unknown or the masters leave a rigid-body motion free.
-    ReductionError
-        If IRS does not converge within `max_iterations`.
     """
     if method not in METHODS:
         raise ValueError(f"reduction {method!r} is unknown; allowed are {', '.join(METHODS)}")
+    full = 2 * model.nodes
+    half = min(size // 2, full)
+    if method == "none":
+        return _unreduced(model)
+    if masters is None and half == full:
+        return _unreduced(model, f"the shaft has {model.size} degrees of freedom, {size} may be kept")
+    try:
+        basis = _basis(model, method, masters, half, tolerance, max_iterations)
+    except ReductionError as error:
+        basis = _basis(model, "craig-bampton", None, half, tolerance, max_iterations)
+        return replace(project(model, basis, "craig-bampton"), reason=str(error))
+    if basis.vectors.shape[1] >= full:
+        return _unreduced(model, f"{method} would keep all {model.size} degrees of freedom of the shaft")
+    return project(model, basis, method)
+
+
+def _unreduced(model: ShaftModel, reason: str = "") -> ReducedShaft:
+    return replace(project(model, Basis(np.eye(2 * model.nodes)), "none"), reason=reason)
+
+
+def _basis(
+    model: ShaftModel,
+    method: Method,
+    masters: NDArray[np.intp] | None,
+    half: int,
+    tolerance: float,
+    max_iterations: int,
+) -> Basis:
+    """The basis of one plane; `half` its size where `masters` does not decide."""
     mass, stiffness, load = model.plane_mass, model.plane_stiffness, model.plane_gravity
-    half = min(size // 2, len(mass))
-    if method == "none" or (half == len(mass) and masters is None):
-        return project(model, Basis(np.eye(len(mass))), method)
     if method == "craig-bampton":
         interface = default_interface(model) if masters is None else masters
         modes = max(half - 1 - len(interface), 0)
-        return project(model, craig_bampton(mass, stiffness, interface, modes=modes, load=load), method)
+        return craig_bampton(mass, stiffness, interface, modes=modes, load=load)
     kept = default_masters(model, half) if masters is None else masters
     if method == "guyan":
-        return project(model, guyan(mass, stiffness, kept), method)
+        return guyan(mass, stiffness, kept)
     modes = min(IRS_MODES, half // 4)
     converged = improved_reduced_system(
-        mass, stiffness, kept, modes=modes, tolerance=tolerance, max_iterations=max_iterations
+        mass, model.stiffness_root, kept, modes=modes, tolerance=tolerance, max_iterations=max_iterations
     )
     if method == "irs-plain":
-        return project(model, converged, method)
+        return converged
     gyroscopic, modes = min(GYROSCOPIC_MODES, modes), min(COMPLEMENT_MODES, int(COMPLEMENT_SHARE * half))
     static = default_masters(model, half - modes - gyroscopic - 1) if masters is None else masters
-    basis = complemented(
+    return complemented(
         mass,
         stiffness,
         converged,
@@ -157,7 +192,6 @@ def reduce(
         modes=modes,
         gyroscopic=gyroscopic,
     )
-    return project(model, basis, method)
 
 
 def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
@@ -173,10 +207,9 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
         Name to record.
     """
     V = basis.vectors
-    mass, stiffness, polar = (
-        V.T @ A @ V for A in (model.plane_mass, model.plane_stiffness, model.plane_polar)
-    )
-    M, K = (sl.block_diag(A, A) for A in (symmetric(mass), symmetric(stiffness)))
+    mass, polar = (V.T @ (A @ V) for A in (model.plane_mass, model.plane_polar))
+    strain = model.stiffness_root @ V
+    M, K = (sl.block_diag(A, A) for A in (symmetric(mass), symmetric(strain.T @ strain)))
     polar, zero = symmetric(polar), np.zeros_like(polar)
     alpha, beta = model.rayleigh
     T = np.hstack([plane_x(model.nodes) @ V, plane_y(model.nodes) @ V])
@@ -192,40 +225,3 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
         method=method,
         history=basis.history,
     )
-
-
-def default_interface(model: ShaftModel) -> NDArray[np.intp]:
-    """Deflection and slope at the bearings, in one plane."""
-    nodes = model.bearing_dofs[:, 0] // 4
-    return np.unique(np.concatenate([2 * nodes, 2 * nodes + 1]))
-
-
-def default_masters(model: ShaftModel, count: int) -> NDArray[np.intp]:
-    """Deflection and slope at the bearings, deflections at the ends, then where the gaps are largest.
-
-    The largest gaps are filled at wheels first, then at any node.
-
-    Parameters
-    ----------
-    model : ShaftModel
-        The unreduced shaft.
-    count : int
-        Degrees of freedom wanted in one plane; more are returned if bearings and ends are more.
-
-    Returns
-    -------
-    ndarray of int
-        Ascending degrees of freedom of one plane.
-    """
-    chosen = {int(d) for d in default_interface(model)} | {0, 2 * model.nodes - 2}
-    wheels = np.unique(model.wheel_dofs[:, 0] // 4)
-    for candidates in (wheels, np.arange(model.nodes)):
-        while len(chosen) < count:
-            occupied = np.array(sorted({d // 2 for d in chosen}))
-            distance = np.abs(model.z[candidates, None] - model.z[occupied]).min(axis=1, initial=np.inf)
-            if distance.max(initial=0.0) == 0.0:
-                break
-            chosen.add(2 * int(candidates[distance.argmax()]))
-    slopes = (2 * k + 1 for k in range(model.nodes) if 2 * k + 1 not in chosen)
-    chosen |= {slope for slope, _ in zip(slopes, range(count - len(chosen)), strict=False)}
-    return np.array(sorted(chosen), dtype=np.intp)

@@ -30,6 +30,8 @@ class ElementMatrices:
     ----------
     stiffness : ndarray, (e, 4, 4)
         Bending and shear.
+    stiffness_root : ndarray, (e, 2, 4)
+        R with R.T R = stiffness: rigid motions come out as zeros to rounding of R, not of the stiffness.
     mass : ndarray, (e, 4, 4)
         Translational and rotary inertia.
     polar : ndarray, (e, 4, 4)
@@ -39,6 +41,7 @@ class ElementMatrices:
     """
 
     stiffness: Array
+    stiffness_root: Array
     mass: Array
     polar: Array
     weight: Array
@@ -106,12 +109,18 @@ def element_matrices(shoulders: Sequence[Shoulder]) -> ElementMatrices:
         ]
     ).transpose(2, 0, 1)
 
+    # Twice the strain energy as two squares: of constant curvature, and of end slopes against the chord.
+    zero = np.zeros_like(L)
+    root = np.sqrt(bending / L)[:, None, None] * np.array(
+        [[zero, -one, zero, one], np.sqrt(3.0 / (1.0 + phi)) * np.array([2.0 / L, one, -2.0 / L, one])]
+    ).transpose(2, 0, 1)
+
     deflection, rotation = shape_functions(L, phi, _XI)
     translational = (rho * A * L)[:, None, None] * _gram(deflection)
     rotary = (rho * second_moment * L)[:, None, None] * _gram(rotation)
     weight = (rho * A * L)[:, None] * np.einsum("p,epi->ei", _DXI, deflection)
     # Polar inertia of a circular section is twice the diametral one.
-    return ElementMatrices(stiffness, translational + rotary, 2.0 * rotary, weight)
+    return ElementMatrices(stiffness, root, translational + rotary, 2.0 * rotary, weight)
 
 
 def shape_functions(length: Array, phi: Array, xi: Array) -> tuple[Array, Array]:

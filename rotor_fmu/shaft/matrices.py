@@ -29,8 +29,11 @@ class ShaftModel:
     ----------
     M, D, G, K : scipy.sparse.csr_array, (n, n)
         Mass, Rayleigh damping, gyroscopic matrix (skew, to be multiplied by the speed) and stiffness.
-    plane_mass, plane_stiffness, plane_polar : ndarray, (2 N, 2 N)
+    plane_mass, plane_stiffness, plane_polar : scipy.sparse.csr_array, (2 N, 2 N)
         The same in one plane, order (deflection, slope) a node; polar inertia of the cross-sections.
+    stiffness_root : scipy.sparse.csr_array, (2 N - 2, 2 N)
+        R with R.T R = plane_stiffness.  Differences of displacements are taken before products: R q is exact
+        to rounding where K q of a fine mesh is what large numbers leave over.
     z : ndarray, (N,)
         Axial positions of the nodes [m].
     bearing_dofs : ndarray of int, (n_b, 4)
@@ -47,9 +50,10 @@ class ShaftModel:
     D: sp.csr_array
     G: sp.csr_array
     K: sp.csr_array
-    plane_mass: Array
-    plane_stiffness: Array
-    plane_polar: Array
+    plane_mass: sp.csr_array
+    plane_stiffness: sp.csr_array
+    plane_polar: sp.csr_array
+    stiffness_root: sp.csr_array
     z: Array
     bearing_dofs: NDArray[np.intp]
     wheel_dofs: NDArray[np.intp]
@@ -96,28 +100,25 @@ def assemble(train: Train) -> ShaftModel:
         The unreduced shaft.
     """
     nodes = train.nodes
-    mass, stiffness, polar = (np.zeros((2 * nodes, 2 * nodes)) for _ in range(3))
-    load = np.zeros(2 * nodes)
     elements = element_matrices(train.shoulders)
-    for k in range(nodes - 1):
-        here = slice(2 * k, 2 * k + 4)
-        mass[here, here] += elements.mass[k]
-        stiffness[here, here] += elements.stiffness[k]
-        polar[here, here] += elements.polar[k]
-        load[here] -= elements.weight[k]
+    discs, load = np.zeros((2, 2 * nodes)), np.zeros(2 * nodes)
+    for k, weight in enumerate(elements.weight):
+        load[2 * k : 2 * k + 4] -= weight
     for wheel in train.wheels:
         deflection, slope = 2 * wheel.node, 2 * wheel.node + 1
-        mass[deflection, deflection] += wheel.mass
-        mass[slope, slope] += wheel.transverse_inertia
-        polar[slope, slope] += wheel.polar_inertia
+        discs[0, deflection] += wheel.mass
+        discs[0, slope] += wheel.transverse_inertia
+        discs[1, slope] += wheel.polar_inertia
         load[deflection] -= wheel.mass
+    mass = sp.csr_array(_assembled(elements.mass) + sp.diags_array(discs[0]))
+    polar = sp.csr_array(_assembled(elements.polar) + sp.diags_array(discs[1]))
+    stiffness = _assembled(elements.stiffness)
 
     x, y = plane_x(nodes), plane_y(nodes)
     M = _both_planes(mass, x, y)
     K = _both_planes(stiffness, x, y)
-    H = sp.csr_array(polar)
     # Angular momentum of the spin, Ip Ω (tilt_y, -tilt_x): its rate opposes the tilting in the other plane.
-    G = sp.csr_array(x @ H @ y.T - y @ H @ x.T)
+    G = sp.csr_array(x @ polar @ y.T - y @ polar @ x.T)
     D = sp.csr_array(train.rayleigh_alpha * M + train.rayleigh_beta * K)
     at_bearings = np.array([b.node for b in train.bearings], dtype=np.intp)
     at_wheels = np.array([w.node for w in train.wheels], dtype=np.intp)
@@ -129,6 +130,7 @@ def assemble(train: Train) -> ShaftModel:
         plane_mass=mass,
         plane_stiffness=stiffness,
         plane_polar=polar,
+        stiffness_root=_assembled(elements.stiffness_root),
         z=np.array(train.z),
         bearing_dofs=4 * at_bearings[:, None] + np.arange(4),
         wheel_dofs=4 * at_wheels[:, None] + np.arange(2),
@@ -143,6 +145,16 @@ def _plane(nodes: int, components: tuple[int, int], signs: tuple[float, float]) 
     return sp.csr_array((values, (rows, np.arange(2 * nodes))), shape=(4 * nodes, 2 * nodes))
 
 
-def _both_planes(matrix: Array, x: sp.csr_array, y: sp.csr_array) -> sp.csr_array:
-    block = sp.csr_array(matrix)
-    return sp.csr_array(x @ block @ x.T + y @ block @ y.T)
+def _assembled(blocks: Array) -> sp.csr_array:
+    """Sum of element blocks (e, r, 4): r rows from row 2 k on, over the displacements of both ends."""
+    count, height, _ = blocks.shape
+    first = 2 * np.arange(count)[:, None, None]
+    rows, columns = (
+        np.broadcast_to(first + i, blocks.shape) for i in (np.arange(height)[:, None], np.arange(4))
+    )
+    where = (rows.ravel(), columns.ravel())
+    return sp.csr_array((blocks.ravel(), where), shape=(2 * count - 2 + height, 2 * count + 2))
+
+
+def _both_planes(matrix: sp.csr_array, x: sp.csr_array, y: sp.csr_array) -> sp.csr_array:
+    return sp.csr_array(x @ matrix @ x.T + y @ matrix @ y.T)

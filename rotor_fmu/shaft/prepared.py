@@ -28,7 +28,7 @@ def prepare_shaft(train: Train, method: Method) -> PreparedShaft:
 
     Raises
     ------
-    ValueError, ReductionError
+    ValueError
         As `reduce`.
     """
     model = assemble(train)

@@ -42,6 +42,11 @@ class Rotor:
         Keep account of the works, for the cost that `fmus.port.balance.TRACK_WORK` says; the first step
         of each size takes some seconds (minutes for the unreduced shaft).
 
+    Attributes
+    ----------
+    reduction_used : str
+        How it was reduced, see `ReducedShaft.carried_out`.
+
     Notes
     -----
     The speed is constant within a step.  When it changes from step to step the angle
@@ -67,6 +72,7 @@ class Rotor:
         track_work: bool = False,
     ) -> None:
         model = self.model = shaft.model
+        self.reduction_used = shaft.reduced.carried_out
         self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
         self._maps = MapCache(model, self.shaft, unbalance)
         self._stepper = AffineStep(self.shaft.bearings)

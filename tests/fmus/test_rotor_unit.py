@@ -68,6 +68,21 @@ def test_loads_and_positions_follow_from_train_and_gravity(unit, small_train):
     ]
 
 
+def test_the_reduction_that_was_carried_out_is_told(unit, small_train):
+    """Asked for before and after another choice, and after a return to a state of that choice."""
+    size = 4 * small_train.nodes
+    none = f"none; the shaft has {size} degrees of freedom, 220 may be kept"
+    assert unit.get("reduction.used").decode() == none
+    unit.start({"reduction": "none"})
+    assert unit.get("reduction.used").decode() == "none"
+    kept = unit.keep()
+    unit.slave.reset()
+    assert unit.get("reduction.used").decode() == none
+    unit.go_back(kept)
+    assert unit.get("reduction.used").decode() == "none"
+    unit.serialise(kept)
+
+
 def test_alone_the_rotor_hovers_with_its_start_values(unit, small_train, starts):
     """Constant forces balance the weight; the shaft whirls about its line, nothing else moves."""
     unit.start()

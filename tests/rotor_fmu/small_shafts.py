@@ -23,10 +23,10 @@ def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):
     bearing_dofs = np.array([[4 * k + i for i in range(4)] for k in bearings])
     wheel_dofs = np.array([[4 * k, 4 * k + 1] for k in wheels])
     load = np.zeros(n) if gravity is None else gravity
-    none = np.zeros((0, 0))
+    none = sp.csr_array((0, 0))
     model = ShaftModel(
         M=sp.csr_array(M), D=sp.csr_array(D), G=sp.csr_array(G), K=sp.csr_array(K),
-        plane_mass=none, plane_stiffness=none, plane_polar=none,
+        plane_mass=none, plane_stiffness=none, plane_polar=none, stiffness_root=none,
         z=np.arange(n // 4, dtype=float), bearing_dofs=bearing_dofs, wheel_dofs=wheel_dofs,
         gravity=load, rayleigh=(0.0, 0.0),
     )  # fmt: skip

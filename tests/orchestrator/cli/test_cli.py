@@ -212,6 +212,9 @@ def test_a_run_is_what_was_asked_for(short_run):
     # Before the event the bearings carry the weight: mean over one revolution, unbalance averages out.
     carried = sum(row["force_mean"] for row in summary["bearings"] if row["phase"] == "before")
     assert carried == pytest.approx(weight, rel=0.02)
+    reduction = record.attrs["reduction_used"]
+    assert reduction == "none; the shaft has 68 degrees of freedom, 220 may be kept"
+    assert record.attrs["reduction"] == "irs" and f"Reduction: {reduction}\n" in said
     assert "v1; v2 at rear" in (folder / "out" / "summary.txt").read_text()
     assert "rear v2" in said
 
