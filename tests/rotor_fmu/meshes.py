@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import scipy.linalg as sl
-from published_rotors import uniform_shaft, with_bearings
+from tests.rotor_fmu.published_rotors import uniform_shaft, with_bearings
 from scipy.optimize import brentq
 
 from rotor_fmu.shaft.beam import shear_coefficient
