@@ -144,7 +144,7 @@ class LinearCase:
     @property
     def unbalance(self) -> NDArray[np.complex128]:
         """Nominal unbalance of each wheel, U exp(i phase) in kg m."""
-        amounts, phases = np.array(wheel_unbalances(self.scenario, self.train)).T
+        amounts, phases = np.reshape(wheel_unbalances(self.scenario, self.train), (-1, 2)).T
         return np.asarray(amounts * np.exp(1j * phases))
 
     @property
