@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import scipy.linalg as sl
-from tests.rotor_fmu.published_rotors import uniform_shaft, with_bearings
 from scipy.optimize import brentq
 
 from rotor_fmu.shaft.beam import shear_coefficient
 from rotor_fmu.train.train import Material, Train, Wheel
+from tests.rotor_fmu.published_rotors import uniform_shaft, with_bearings
 
 LENGTH, DIAMETER = 6.0, 0.24
 STEEL = Material("steel", 2.1e11, 0.3, 7850.0)
