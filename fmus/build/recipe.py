@@ -112,6 +112,11 @@ class Recipe:
         return loader.digest_of(files.items())
 
     @property
+    def stored_name(self) -> str:
+        """Name of its file in a folder that is shared: it tells apart what the plain name does not."""
+        return f"{self.file_name.removesuffix('.fmu')}-{self.digest[:16]}.fmu"
+
+    @property
     def guid(self) -> str:
         """GUID of the FMU: the same for the same content."""
         return str(uuid.uuid5(_NAMESPACE, self.digest))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
 
 
@@ -48,7 +49,7 @@ def source_files(modules: Iterable[str], packages: Sequence[str]) -> dict[str, d
         if module in found or path is None:
             continue
         found[module] = path
-        waiting.extend(_imports(path))
+        waiting.extend(_imports(path, path.stat().st_mtime_ns))
         waiting.append(module.rpartition(".")[0])
     files: dict[str, dict[str, bytes]] = {package: {} for package in packages}
     for module, path in found.items():
@@ -67,7 +68,13 @@ def _file_of(module: str, folders: dict[str, Path]) -> Path | None:
     return next((path for path in candidates if path.is_file()), None)
 
 
-def _imports(path: Path) -> Iterator[str]:
+@cache
+def _imports(path: Path, _changed: int) -> tuple[str, ...]:
+    """The modules that a file, as of the time of its last change, may import; see `_imported`."""
+    return tuple(_imported(path))
+
+
+def _imported(path: Path) -> Iterator[str]:
     """Yield the modules that a file may import, names imported from a package among them."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))):
         if isinstance(node, ast.Import):

@@ -20,6 +20,7 @@ from orchestrator.results.folder import check_folder, check_room, check_writable
 from orchestrator.scenario.file import load_with_train, parse_with_train, scenario_toml
 from orchestrator.scenario.problems import record_size
 from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.wording import choice
 
 
@@ -54,7 +55,7 @@ def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = No
             check_writable(checkpoint_folder(folder))
         known = saved.about.get("trusted", ()) if saved is not None else ()
         foreign = case.units.foreign(case.scenario)
-        trusted = require_trust(foreign, request.fmus, trust=request.trust, known=known)
+        trusted = require_trust(foreign, trust=request.trust, known=known)
         if not request.is_ssp:
             depths = {case.scenario.depth_of(name) for name in names}
             ensure_fmus(request.fmus, case.train, depths, console)
@@ -76,6 +77,8 @@ def result_folder_of(request: RunRequest, scenario: Scenario) -> Path:
 def _scenario_case(request: RunRequest, saved: Checkpoint | None) -> Iterator[Case]:
     if saved is None:
         scenario, train = load_with_train(request.source, _with_ledger(request))
+        if request.rotor not in (None, rotor_recipe(train).guid):
+            raise OrchestratorError(f"train {scenario.train}: was edited meanwhile; start anew")
     else:
         try:
             text, place = saved.about["scenario"], Path(saved.about["scenario_folder"])

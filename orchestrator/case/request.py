@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from orchestrator.fmi.folder import fmu_folder
 from orchestrator.fmi.watchdog import BUDGET
 
 
@@ -23,7 +24,7 @@ class RunRequest:
     out : Path or None
         Folder of the results; None: ``results/<scenario>-<depth>``, of an SSP ``results/<name>``.
     fmus : Path
-        Folder of the FMUs.
+        Folder of the FMUs; by default in the user's cache.
     bearing : str or None
         The analysed bearing; None: the most loaded one.
     formats : sequence of str
@@ -38,12 +39,14 @@ class RunRequest:
         Run FMUs of others without asking.
     budget : float
         Wall time in s that a call to a unit may take; 0 for any.
+    rotor : str or None
+        GUID of the rotor that is meant, where the train may have been edited since it was chosen.
     """
 
     source: str
     overrides: Mapping[str, Any] = field(default_factory=dict)
     out: Path | None = None
-    fmus: Path = Path("fmus")
+    fmus: Path = field(default_factory=fmu_folder)
     bearing: str | None = None
     formats: Sequence[str] = ("png",)
     checkpoint: float | None = None
@@ -51,6 +54,7 @@ class RunRequest:
     threads: int | None = None
     trust: bool = False
     budget: float = BUDGET
+    rotor: str | None = None
 
     @property
     def is_ssp(self) -> bool:

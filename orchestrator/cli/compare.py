@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from orchestrator.cli.options import Budget, Depth, FigureFormats, Format, guarded
+from orchestrator.cli.options import Budget, Depth, FigureFormats, Fmus, Format, guarded
 from orchestrator.cli.wrong_use import one_of
 
 COMPARE_HELP = (
@@ -71,7 +71,7 @@ def compare(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Results; by default results/<SCENARIO>-compare.")
     ] = None,
-    fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    fmus: Fmus = None,
     figure_format: FigureFormats = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True,
     budget: Budget = 60.0,
@@ -84,11 +84,14 @@ def compare(
         from rich.console import Console
 
         from orchestrator.commands.compare import CompareRequest, run
+        from orchestrator.fmi.folder import fmu_folder
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
         overrides = {key: value for key, value in given.items() if value is not None}
         depths = tuple(map(str, depth or Depth))
-        request = CompareRequest(scenario, overrides, out, fmus, depths, jobs, check, formats, budget)
+        request = CompareRequest(
+            scenario, overrides, out, fmus or fmu_folder(), depths, jobs, check, formats, budget
+        )
         return run(request, Console(), Console(stderr=True))
 
     guarded(work)

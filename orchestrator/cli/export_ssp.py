@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from orchestrator.cli.options import Trust, guarded
+from orchestrator.cli.options import Fmus, Trust, guarded
 
 EXPORT_HELP = (
     "Write a scenario as an SSP (SSP 1.0): its system and its start, for other co-simulation tools.\n\n"
@@ -29,7 +29,7 @@ def export_ssp(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="By default <SCENARIO>.ssp in the current folder.")
     ] = None,
-    fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    fmus: Fmus = None,
     trust: Trust = False,
 ) -> None:
     """Export a scenario, see `EXPORT_HELP`."""
@@ -38,8 +38,9 @@ def export_ssp(
         from rich.console import Console
 
         from orchestrator.commands.export_ssp import export_scenario
+        from orchestrator.fmi.folder import fmu_folder
 
-        export_scenario(scenario, out, fmus, Console(), trust=trust)
+        export_scenario(scenario, out, fmus or fmu_folder(), Console(), trust=trust)
         return 0
 
     guarded(work)

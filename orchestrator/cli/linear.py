@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from orchestrator.cli.options import DEPTH_CHOICE, Depth, FigureFormats, Format, Trust, guarded
+from orchestrator.cli.options import DEPTH_CHOICE, Depth, FigureFormats, Fmus, Format, Trust, guarded
 from orchestrator.cli.wrong_use import one_of
 
 if TYPE_CHECKING:
@@ -35,7 +35,6 @@ Out = Annotated[
     Path | None,
     typer.Option(metavar="DIR", help="Results; by default results/<NAME>-<COMMAND>."),
 ]
-Fmus = Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs, from which K and C come.")]
 Highest = Annotated[
     float, typer.Option("--to", metavar="HZ", min=1.0, max=1000.0, help="Highest speed of rotation.")
 ]
@@ -91,7 +90,7 @@ def campbell(
     highest: Highest = 50.0,
     depth: FilmDepth = None,
     out: Out = None,
-    fmus: Fmus = Path("fmus"),
+    fmus: Fmus = None,
     formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
@@ -113,7 +112,7 @@ def modes(
     ] = 12,
     depth: FilmDepth = None,
     out: Out = None,
-    fmus: Fmus = Path("fmus"),
+    fmus: Fmus = None,
     formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
@@ -132,7 +131,7 @@ def harmonic(
     highest: Highest = 50.0,
     depth: FilmDepth = None,
     out: Out = None,
-    fmus: Fmus = Path("fmus"),
+    fmus: Fmus = None,
     formats: FigureFormats = None,
     trust: Trust = False,
 ) -> None:
@@ -150,7 +149,7 @@ def reductions(
     source: Source = "paper",
     depth: FilmDepth = None,
     out: Out = None,
-    fmus: Fmus = Path("fmus"),
+    fmus: Fmus = None,
     trust: Trust = False,
 ) -> None:
     """Errors of reductions, see `REDUCTIONS_HELP`."""
@@ -169,7 +168,7 @@ def _run(
     source: str,
     depth: Depth | None,
     out: Path | None,
-    fmus: Path,
+    fmus: Path | None,
     formats: list[Format] | None,
     trust: bool,
 ) -> None:
@@ -178,10 +177,11 @@ def _run(
     def guarded_work() -> int:
         from rich.console import Console
 
+        from orchestrator.fmi.folder import fmu_folder
         from orchestrator.linear.case import LinearRequest
 
         kinds = tuple(str(kind) for kind in formats or [Format.PNG])
-        request = LinearRequest(name, source, depth and str(depth), out, fmus, kinds, trust)
+        request = LinearRequest(name, source, depth and str(depth), out, fmus or fmu_folder(), kinds, trust)
         return work(request, Console())
 
     guarded(guarded_work)

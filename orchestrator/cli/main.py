@@ -59,7 +59,7 @@ def bladeloss(
 
 @app.command()
 def build(
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus"),
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("bladeloss-fmus"),
     train: Annotated[
         list[str],
         typer.Option(metavar="TRAIN", help="Bundled train or folder with train.toml; repeatable."),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import StrEnum
 from inspect import Signature, signature
+from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_type_hints
 
 import typer
@@ -20,6 +21,11 @@ Trust = Annotated[
 Budget = Annotated[
     float,
     typer.Option(min=0.0, metavar="SECONDS", help="Give up a unit that takes longer for a call; 0: never."),
+]
+
+Fmus = Annotated[
+    Path | None,
+    typer.Option(metavar="DIR", help="Folder of the FMUs; by default in the user's cache. May be shared."),
 ]
 
 

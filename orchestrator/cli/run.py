@@ -13,6 +13,7 @@ from orchestrator.cli.options import (
     Coupling,
     Depth,
     FigureFormats,
+    Fmus,
     Format,
     GivenDepth,
     Reduction,
@@ -109,11 +110,12 @@ class RunOptions:
         int | None,
         typer.Option(min=1, metavar="N", help="For the bearings; by default 2 where that pays."),
     ] = None
-    fmus: Annotated[Path, typer.Option(metavar="DIR", help="Folder of the FMUs.")] = Path("fmus")
+    fmus: Fmus = None
     figure_format: FigureFormats = None
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True
     trust: Trust = False
     budget: Budget = 60.0
+    rotor: Annotated[str | None, typer.Option(hidden=True, help="GUID of the rotor that is meant.")] = None
 
     @property
     def overrides(self) -> dict[str, Any]:
@@ -142,12 +144,13 @@ def run(options: RunOptions) -> int:
 
     from orchestrator.case.request import RunRequest
     from orchestrator.commands import run as run_command
+    from orchestrator.fmi.folder import fmu_folder
 
     request = RunRequest(
         options.scenario,
         options.overrides,
         options.out,
-        options.fmus,
+        options.fmus or fmu_folder(),
         options.bearing,
         tuple(str(kind) for kind in options.figure_format or [Format.PNG]) if options.figures else (),
         options.checkpoint,
@@ -155,6 +158,7 @@ def run(options: RunOptions) -> int:
         options.threads,
         options.trust,
         options.budget,
+        options.rotor,
     )
     return run_command.run(request, Console(), Console(stderr=True))
 

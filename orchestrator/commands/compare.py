@@ -12,7 +12,7 @@ from rich.console import Console
 
 from bearing_fmu import depths as registry
 from orchestrator.errors import NotWrittenError
-from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.fmi.folder import ensure_fmus, fmu_folder
 from orchestrator.fmi.watchdog import BUDGET
 from orchestrator.outcome import Outcome
 from orchestrator.results.files import add_figures, data_then_figures, room_for
@@ -69,7 +69,7 @@ class CompareRequest:
     source: str
     overrides: Mapping[str, Any] = field(default_factory=dict)
     out: Path | None = None
-    fmus: Path = Path("fmus")
+    fmus: Path = field(default_factory=fmu_folder)
     depths: Sequence[str] = ()
     jobs: int | None = None
     check: bool = False

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from fmus.build.builder import NotOursError, check_target
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import own_bearings, require_trust
 from orchestrator.scenario.file import load_with_train
@@ -43,7 +44,12 @@ def export_scenario(
     path = out or Path(f"{Path(source).stem}.ssp")
     if path.suffix != ".ssp":
         raise SspError(f"--out {path}: allowed is a name that ends in .ssp")
-    require_trust(own_bearings(scenario), fmus, trust=trust)
+    try:
+        for target in (path, force_only(path)):
+            check_target(target)
+    except NotOursError as error:
+        raise SspError(str(error)) from None
+    require_trust(own_bearings(scenario), trust=trust)
     ensure_fmus(fmus, train, {scenario.depth_of(seat.name) for seat in train.bearings}, console)
     console.print("Solving the static equilibrium", highlight=False)
     try:

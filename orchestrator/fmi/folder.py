@@ -1,10 +1,11 @@
-"""The folder of FMUs: what is missing or stale is built."""
+"""The folder of FMUs: what is missing, or not to the byte what this program builds, is built."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
+import platformdirs
 from rich.console import Console
 
 from bearing_fmu import depths
@@ -19,6 +20,11 @@ from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
 
+def fmu_folder() -> Path:
+    """Where the FMUs of runs lie by default: in the user's cache."""
+    return platformdirs.user_cache_path("bladeloss", appauthor=False) / "fmus"
+
+
 def recipes(trains: Iterable[Train], names: Iterable[str]) -> list[Recipe]:
     """A rotor for each train, a bearing for each of these depths; ValueError for an unfit name."""
     return [rotor_recipe(train) for train in trains] + [bearing_recipe(name) for name in names]
@@ -31,12 +37,12 @@ def build(out: Path, trains: Iterable[Train] = (), names: Iterable[str] | None =
 
 @one_blas_thread()
 def ensure_fmus(folder: Path, train: Train, names: Collection[str], console: Console) -> list[Path]:
-    """Build the FMUs that a run needs and the folder lacks, or holds from other sources or data.
+    """Build the FMUs that a run needs and the folder lacks, or does not hold byte for byte.
 
     Parameters
     ----------
     folder : Path
-        Folder of the FMUs, made if missing.
+        Folder of the FMUs, made if missing; any number of runs may share it.
     train : Train
         The train; its rotor is one FMU.
     names : collection of str
@@ -52,12 +58,18 @@ def ensure_fmus(folder: Path, train: Train, names: Collection[str], console: Con
     Raises
     ------
     FmuError
-        When the folder cannot be written to.
+        When the folder cannot be written to, or holds something else in the place of an FMU.
     """
+    own = folder.absolute() == fmu_folder().absolute()
     try:
-        built = builder.refresh(folder, recipes([train], sorted(name for name in names if not is_fmu(name))))
+        wanted = recipes([train], sorted(name for name in names if not is_fmu(name)))
+        built = builder.refresh(folder, wanted, own)
     except OSError as error:
-        raise FmuError(f"{folder}: FMUs cannot be built there: {error}") from error
+        raise FmuError(
+            f"{folder}: FMUs cannot be built there: {error}; --fmus names another folder"
+        ) from error
+    except ValueError as error:
+        raise FmuError(str(error)) from error
     if built:
         console.print(f"Built {', '.join(str(path) for path in built)}", highlight=False, soft_wrap=True)
     return built

@@ -12,6 +12,7 @@ from zipfile import ZipFile
 from defusedxml.ElementTree import fromstring
 
 from bearing_fmu import recipe as bearing
+from fmus.build.archive import holds
 from fmus.build.recipe import Recipe
 from fmus.port.variable import Value
 from rotor_fmu import recipe as rotor
@@ -31,7 +32,7 @@ def is_own(path: Path) -> bool:
     try:
         with ZipFile(path) as archive:
             recipe = _recipe(archive)
-            return recipe is not None and _same(archive, recipe.content())
+        return recipe is not None and holds(path, recipe.content())
     except Exception:  # whatever cannot be read or built is of somebody else
         return False
 
@@ -67,13 +68,3 @@ def _read(archive: ZipFile, name: str) -> bytes:
     if len(content) > _LARGEST:
         raise ValueError(f"{name} is larger than any of ours")
     return content
-
-
-def _same(archive: ZipFile, content: Mapping[str, bytes]) -> bool:
-    sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-    # sizes first: nothing large is read
-    return (
-        len(sizes) == len(archive.infolist())
-        and sizes == {name: len(text) for name, text in content.items()}
-        and all(archive.read(name) == text for name, text in content.items())
-    )

@@ -29,7 +29,6 @@ def own_bearings(scenario: Scenario) -> dict[str, Path]:
 
 def require_trust(
     files: Mapping[str, Path],
-    built: Path | None,
     *,
     trust: bool = False,
     known: Collection[str] = (),
@@ -41,8 +40,6 @@ def require_trust(
     ----------
     files : mapping
         FMUs that are about to run, by the name to show.
-    built : Path or None
-        Folder of the FMUs that were built here; those in it are run as they are.
     trust : bool
         The user agreed beforehand (``--trust``).
     known : collection of str
@@ -62,8 +59,7 @@ def require_trust(
     """
     agreed = []
     for name, path in files.items():
-        within = built is not None and path.resolve().is_relative_to(built.resolve())
-        if within or not path.is_file() or is_own(path):  # a file that is missing is said when it is opened
+        if not path.is_file() or is_own(path):  # a file that is missing is said when it is opened
             continue
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         if not (trust or digest in known or _agrees(f"{name} {_WHAT}. Run it?", ask)):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.fmi.folder import ensure_fmus, fmu_folder
 from orchestrator.fmi.trust import own_bearings, require_trust
 from orchestrator.linear.operating_point import OperatingPoint, bearing_data, operating_point
 from orchestrator.results.files import room_for
@@ -75,7 +75,7 @@ class LinearRequest:
     source: str
     depth: str | None = None
     out: Path | None = None
-    fmus: Path = Path("fmus")
+    fmus: Path = field(default_factory=fmu_folder)
     formats: Sequence[str] = ("png",)
     trust: bool = False
 
@@ -137,7 +137,7 @@ class LinearCase:
     def operating_point(self) -> OperatingPoint:
         """Linearised bearings at rated speed; FMUs are built where missing."""
         depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
-        require_trust(own_bearings(self.scenario), self.request.fmus, trust=self.request.trust)
+        require_trust(own_bearings(self.scenario), trust=self.request.trust)
         ensure_fmus(self.request.fmus, self.train, depths, self.console)
         return operating_point(self.scenario, self.train, self.request.fmus)
 

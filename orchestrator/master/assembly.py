@@ -6,6 +6,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from bearing_fmu.recipe import bearing_recipe
+from fmus.build.builder import place
+from fmus.build.recipe import Recipe
 from orchestrator.errors import FmuError
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit, UnitError
@@ -14,11 +17,10 @@ from orchestrator.master.system import System
 from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
-    bearing_path,
     rotor_parameters,
 )
-from orchestrator.scenario.scenario import Scenario
-from rotor_fmu.recipe import file_name as rotor_file
+from orchestrator.scenario.scenario import Scenario, is_fmu
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
 
@@ -32,12 +34,33 @@ class Part:
 
 
 def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
-    """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters."""
-    yield Part("rotor", store.open(fmus / rotor_file(train)), rotor_parameters(scenario, train))
+    """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters.
+
+    Raises
+    ------
+    FmuError
+        When an FMU in the folder is not that of this train, these films and this program.
+    """
+    yield Part("rotor", _built(rotor_recipe(train), fmus, store), rotor_parameters(scenario, train))
+    depths = {scenario.depth_of(seat.name) for seat in train.bearings}
+    files = {
+        depth: store.open(scenario.folder / depth)
+        if is_fmu(depth)
+        else _built(bearing_recipe(depth), fmus, store)
+        for depth in sorted(depths)
+    }
     for seat in train.bearings:
-        file = store.open(bearing_path(scenario, seat.name, fmus))
+        file = files[scenario.depth_of(seat.name)]
         values = bearing_parameters(seat, scenario.film)
         yield Part(seat.name, file, {name: x for name, x in values.items() if name in file.variables})
+
+
+def _built(recipe: Recipe, fmus: Path, store: FmuStore) -> FmuFile:
+    """Open the FMU of a recipe, and make sure that what was loaded is what is meant."""
+    file = store.open(place(fmus, recipe))
+    if file.description.guid != f"{{{recipe.guid}}}":
+        raise FmuError(f"{file.path}: is another unit than {recipe.name} as it is now; build it anew")
+    return file
 
 
 def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, threads: int = 1) -> System:

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
-from bearing_fmu.recipe import file_name as bearing_file
 from fmus import port
 from orchestrator.scenario.events import Values
-from orchestrator.scenario.scenario import FilmResolution, Scenario, is_fmu
+from orchestrator.scenario.scenario import FilmResolution, Scenario
 from rotor_fmu.train.train import BearingSeat, Train
-
-
-def bearing_path(scenario: Scenario, bearing: str, fmus: Path) -> Path:
-    """Return the path of the FMU of a bearing: of its depth in the folder `fmus`, or the user's own."""
-    depth = scenario.depth_of(bearing)
-    return scenario.folder / depth if is_fmu(depth) else fmus / bearing_file(depth)
 
 
 def rotor_parameters(scenario: Scenario, train: Train) -> Values:

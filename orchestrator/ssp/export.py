@@ -13,6 +13,7 @@ from bearing_fmu.recipe import bearing_recipe
 from fmus import port
 from fmus.build.archive import write_archive
 from fmus.build.builder import write
+from fmus.build.recipe import Recipe
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit
@@ -30,7 +31,6 @@ from orchestrator.scenario.parameters import (
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from orchestrator.ssp.structure import ROTOR, Component, Connector, SspError, Structure
 from orchestrator.ssp.writer import documents
-from rotor_fmu.recipe import file_name as rotor_file
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
@@ -140,20 +140,17 @@ class _Parts:
             content = file.path.read_bytes()
             if starts:
                 content = self._with_starts(file, bearing, starts)
-            name, number = file.path.name, 2
+            recipe = self._recipe(bearing)
+            name, number = file.path.name if recipe is None else recipe.file_name, 2
+            stem = name.removesuffix(".fmu")
             while f"resources/{name}" in self.files:
-                name, number = f"{file.path.stem}_{number}.fmu", number + 1
+                name, number = f"{stem}_{number}.fmu", number + 1
             self._sources[key] = f"resources/{name}"
             self.files[self._sources[key]] = content
         return self._sources[key]
 
     def _with_starts(self, file: FmuFile, bearing: str | None, starts: Values) -> bytes:
-        if bearing is None:
-            own = file.path.name == rotor_file(self.train)
-            recipe = rotor_recipe(self.train, starts) if own else None
-        else:
-            depth = self.scenario.depth_of(bearing)
-            recipe = None if is_fmu(depth) else bearing_recipe(depth, starts)
+        recipe = self._recipe(bearing, starts)
         if recipe is None:
             settings = ", ".join(f"{name} = {value!r}" for name, value in starts.items())
             raise SspError(
@@ -161,6 +158,13 @@ class _Parts:
                 "FMU that bladeloss did not build stay as they are; take those"
             )
         return write(recipe, self.temporary).read_bytes()
+
+    def _recipe(self, bearing: str | None, starts: Values | None = None) -> Recipe | None:
+        """Of the FMU of a bearing, or of the rotor; None for somebody else's."""
+        if bearing is None:
+            return rotor_recipe(self.train, starts)
+        depth = self.scenario.depth_of(bearing)
+        return None if is_fmu(depth) else bearing_recipe(depth, starts)
 
 
 def _unlike(file: FmuFile, settings: Values) -> Values:

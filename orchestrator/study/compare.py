@@ -16,6 +16,7 @@ from orchestrator.scenario.file import scenario_toml, with_overrides
 from orchestrator.study.children import COMMAND, Child, cores, run_children
 from orchestrator.study.comparison import Comparison, gather
 from orchestrator.study.progress import show_runs
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import bundled_trains
 
 if TYPE_CHECKING:
@@ -87,6 +88,7 @@ def run_depths(
     source.write_text(scenario_toml(scenario), encoding="utf-8")
     jobs = min(means.jobs or cores(), len(depths))
     options = ["--fmus", str(means.fmus.absolute()), "--budget", str(means.budget), "--no-figures"]
+    options += ["--rotor", rotor_recipe(train).guid]  # the train may be edited while they start
     options += ["--threads", str(max(1, cores() // jobs))]
     children = [Child(d, (str(source), "--depth", d, *options), folder / d) for d in depths]
     with show_runs(depths, console) as show:

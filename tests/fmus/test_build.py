@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from fmpy.validation import validate_fmu
 
 from bearing_fmu.recipe import bearing_recipe
 from fmus.build import builder as build
-from fmus.build.archive import guid_in, write_archive
+from fmus.build.archive import as_written, guid_in, write_archive
 from fmus.build.sources import package_folder, source_files
 from rotor_fmu.recipe import rotor_recipe
 from tests.fmus.conftest import spring_recipe
@@ -49,12 +50,46 @@ def test_two_builds_of_a_rotor_are_the_same_to_the_byte(built, small_train, tmp_
     assert again.read_bytes() == built["rotor_small.fmu"].read_bytes()
 
 
-def test_refresh_builds_what_is_missing_or_stale_only(built, tmp_path):
-    names = [path.name for path in build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3")))]
-    assert names == ["bearing_v1.fmu", "bearing_v3.fmu"]
-    (tmp_path / "bearing_v3.fmu").write_bytes(b"damaged")
-    assert build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3"))) == [tmp_path / "bearing_v3.fmu"]
-    assert build.refresh(tmp_path, map(bearing_recipe, ("v1", "v3"))) == []
+def test_refresh_builds_what_is_missing_only(built, tmp_path):
+    wanted = [bearing_recipe(depth) for depth in ("v1", "v3")]
+    built_now = build.refresh(tmp_path, wanted)
+    assert [path.name for path in built_now] == [recipe.stored_name for recipe in wanted]
+    assert wanted[1].stored_name == f"bearing_v3-{wanted[1].digest[:16]}.fmu"
+    assert build.refresh(tmp_path, wanted) == []
+    assert build.refresh(built["bearing_v1.fmu"].parent, wanted) == []  # plain names do
+
+
+def test_what_is_damaged_in_the_own_folder_is_built_anew(tmp_path):
+    recipe = bearing_recipe("v3")
+    path = tmp_path / recipe.stored_name
+    path.write_bytes(b"damaged")
+    with pytest.raises(build.NotOursError, match="is not what bladeloss builds under this name"):
+        build.refresh(tmp_path, [recipe])
+    assert path.read_bytes() == b"damaged"
+    assert build.refresh(tmp_path, [recipe], True) == [path] and build.refresh(tmp_path, [recipe]) == []
+
+
+def test_a_build_changes_nothing_that_it_did_not_write(tmp_path, small_train):
+    recipe = bearing_recipe("v3")
+    (path,) = build.build(tmp_path, [recipe])
+    assert as_written(path) and build.build(tmp_path, [recipe]) == [path]
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr("mine", "mine")
+    edited = path.read_bytes()
+    with pytest.raises(build.NotOursError, match="or was changed since, and is left as it is"):
+        build.build(tmp_path, [rotor_recipe(small_train), recipe])
+    assert path.read_bytes() == edited and [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_two_trains_of_one_name_are_told_apart(tmp_path, small_train):
+    """In a shared folder by their digest; a build for other tools, of plain names, refuses."""
+    faster = replace(small_train, speed=1.01 * small_train.speed)
+    both = [rotor_recipe(small_train), rotor_recipe(faster)]
+    assert len(build.refresh(tmp_path, both)) == 2
+    found = [guid_in(build.place(tmp_path, recipe)) for recipe in both]
+    assert found == [f"{{{recipe.guid}}}" for recipe in both]
+    with pytest.raises(build.NotOursError, match=r"rotor_small\.fmu: two unlike units"):
+        build.build(tmp_path / "plain", both)
 
 
 def test_a_date_appears_if_it_is_prescribed(tmp_path, monkeypatch):

@@ -1,9 +1,14 @@
 """A train of two bearings whose FMUs are the oscillator's, to run the master as a whole."""
 
 import math
-import shutil
+import re
+from zipfile import ZipFile
 
+from bearing_fmu.recipe import bearing_recipe
 from orchestrator.scenario.file import load_scenario
+from rotor_fmu.recipe import rotor_recipe
+from rotor_fmu.train.file import load_train
+from tests.orchestrator.foreign import with_text
 
 JOURNAL_MASS, INNER_MASS, GRAVITY = 100.0, 400.0, 9.80665
 SHAFT_STIFFNESS, SHAFT_DAMPING = 4e6, 1e3
@@ -57,18 +62,34 @@ interval = 1e-3
 
 
 def toy_fmu_folder(toy_fmus, folder):
-    """FMUs under the names that the master looks for."""
+    """FMUs under the names and with the GUIDs that the master looks for."""
     folder.mkdir(exist_ok=True)
-    shutil.copy(toy_fmus / "two_masses.fmu", folder / "rotor_toy.fmu")
+    train = load_train(_toy_folder(folder))
+    in_the_place_of(rotor_recipe(train), toy_fmus / "two_masses.fmu", folder)
     for depth in ("v1", "v2", "v3"):
-        shutil.copy(toy_fmus / "spring_damper.fmu", folder / f"bearing_{depth}.fmu")
+        in_the_place_of(bearing_recipe(depth), toy_fmus / "spring_damper.fmu", folder)
     return folder
+
+
+def in_the_place_of(recipe, fmu, folder):
+    """Copy an FMU so that it passes for that of a recipe in all but its code."""
+    with ZipFile(fmu) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    guid = re.search(r'guid="[^"]*"', text)[0]
+    target = folder / recipe.file_name
+    return with_text(fmu, target, "modelDescription.xml", guid, f'guid="{{{recipe.guid}}}"')
+
+
+def _toy_folder(folder):
+    """Write the files of the toy train."""
+    (folder / "toy").mkdir(exist_ok=True)
+    (folder / "toy" / "train.toml").write_text(TRAIN)
+    (folder / "toy" / "shaft.csv").write_text(SHAFT)
+    return folder / "toy"
 
 
 def toy_scenario(folder, **overrides):
     """Scenario of the toy train, written to `folder`."""
-    (folder / "toy").mkdir(exist_ok=True)
-    (folder / "toy" / "train.toml").write_text(TRAIN)
-    (folder / "toy" / "shaft.csv").write_text(SHAFT)
+    _toy_folder(folder)
     (folder / "toy.toml").write_text(SCENARIO)
     return load_scenario(folder / "toy.toml", overrides)

@@ -18,6 +18,7 @@ from fmus.port import Failure
 from orchestrator.cli.main import app
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.file import FmuStore
+from orchestrator.fmi.folder import fmu_folder
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.linear import case as linear_case
 from orchestrator.master.assembly import assemble
@@ -121,7 +122,7 @@ def test_response_at_rated_speed_is_the_orbit_that_a_run_starts_from(folder):
     scenario = load_scenario("small")
     train = train_of(scenario)
     with FmuStore() as store:
-        system = assemble(scenario, train, folder / "fmus", store)
+        system = assemble(scenario, train, fmu_folder(), store)
         try:
             start = find_start(system, train.bearings, train.speed, train.nodes)
         finally:
@@ -216,7 +217,7 @@ def test_a_start_that_fails_has_its_own_exit_status(folder, tmp_path, monkeypatc
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(linear_case, "operating_point", fail)
-    result = CliRunner().invoke(app, ["modes", "small", "--fmus", str(folder / "fmus")])
+    result = CliRunner().invoke(app, ["modes", "small"])
     assert result.exit_code == outcome.status
     assert f"error: {error}. {outcome.advice}" in result.output
     assert list(tmp_path.iterdir()) == []

@@ -16,6 +16,7 @@ from orchestrator.fmi.own import is_own
 from orchestrator.fmi.trust import UntrustedError, require_trust
 from orchestrator.observers import checkpoint
 from orchestrator.outcome import INPUT_ERROR
+from orchestrator.results.record_files import read_record
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from rotor_fmu.recipe import rotor_recipe
@@ -133,7 +134,7 @@ def test_our_own_ssp_runs_without_a_question(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with a file added, such as another library",
     "it counts as foreign: `--trust`",
-    guard="orchestrator.fmi.own:_same",
+    guard="fmus.build.archive:holds",
 )
 def test_added_code_is_foreign(small_fmus, tmp_path):
     bearing = small_fmus / "bearing_v3.fmu"
@@ -145,7 +146,7 @@ def test_added_code_is_foreign(small_fmus, tmp_path):
     "archive",
     "an FMU of ours with one byte of its code changed",
     "it counts as foreign: `--trust`",
-    guard="orchestrator.fmi.own:_same",
+    guard="fmus.build.archive:holds",
 )
 def test_changed_code_is_foreign(small_fmus, tmp_path):
     names = ZipFile(small_fmus / "rotor_small.fmu").namelist()
@@ -164,24 +165,54 @@ def test_trains_and_start_values_are_data(tmp_path):
     assert not is_own(tmp_path / "text.fmu")
 
 
-def test_the_build_folder_is_trusted(spring, tmp_path):
-    shutil.copy(spring, tmp_path / "mine.fmu")
-    assert require_trust({"mine": tmp_path / "mine.fmu"}, tmp_path) == []
-    with pytest.raises(UntrustedError):
-        require_trust({"mine": tmp_path / "mine.fmu"}, tmp_path / "fmus")
+@fault(
+    "archive",
+    "a cloned folder of FMUs with a doctored bearing of our name and GUID",
+    "exit 2; the file, which is left as it is; nothing of it runs",
+    guard="fmus.build.builder:refresh",
+)
+def test_a_doctored_bearing_in_the_folder_of_fmus(short, small_fmus, tmp_path, nothing_runs):
+    recipe = bearing_recipe("v3")
+    script = next(
+        n for n in ZipFile(small_fmus / "bearing_v3.fmu").namelist() if "bladeloss_bearing_v3_" in n
+    )
+    folder = tmp_path / "cloned"
+    folder.mkdir()
+    target = folder / recipe.stored_name
+    with_text(small_fmus / "bearing_v3.fmu", target, script, "keep(globals())", "keep(dict(()))")
+    doctored = target.read_bytes()
+    result = call("run", short, "--fmus", folder, "--out", tmp_path / "o")
+    assert result.exit_code == INPUT_ERROR, result.output
+    (text,) = result.stderr.strip().splitlines()
+    assert text.startswith(f"error: {target}: is not what bladeloss builds under this name")
+    assert target.read_bytes() == doctored and not (tmp_path / "o").exists()
+
+
+def test_a_doctored_bearing_of_the_plain_name_is_passed_over(short, small_fmus, tmp_path):
+    """It is neither run nor changed."""
+    folder = tmp_path / "cloned"
+    folder.mkdir()
+    mine = with_entry(
+        small_fmus / "bearing_v3.fmu", folder / "bearing_v3.fmu", "resources/evil.py"
+    ).read_bytes()
+    result = call("run", short, "--fmus", folder, "--out", tmp_path / "o", "--no-figures")
+    assert result.exit_code == 0, result.output
+    assert path.read_bytes() == mine
+    assert bearing_recipe("v3").stored_name in read_record(tmp_path / "o").attrs["fmus"]
 
 
 @fault(
     "archive",
-    "a link in the build folder to an FMU elsewhere",
-    "it counts as foreign: `--trust`",
+    "a scenario with an FMU of somebody else in the folder of FMUs",
+    "exit 2; file, `native code`, `--trust`; nothing of it runs",
     guard="orchestrator.fmi.trust:require_trust",
 )
-def test_a_link_out_of_the_build_folder(spring, tmp_path):
-    (tmp_path / "fmus").mkdir()
-    (tmp_path / "fmus" / "mine.fmu").symlink_to(spring)
-    with pytest.raises(UntrustedError, match="native code"):
-        require_trust({"mine": tmp_path / "fmus" / "mine.fmu"}, tmp_path / "fmus")
+def test_the_folder_of_fmus_vouches_for_nothing(spring, short, small_fmus, tmp_path, nothing_runs):
+    folder = tmp_path / "fmus"
+    folder.mkdir()
+    shutil.copy(spring, folder / "mine.fmu")
+    short.write_text(short.read_text() + '[depth_at]\nrear = "fmus/mine.fmu"\n')
+    untrusted(call("run", short, "--fmus", folder, "--out", tmp_path / "o"), "mine.fmu")
 
 
 @fault(
@@ -195,10 +226,10 @@ def test_the_question_on_a_terminal(spring, monkeypatch):
     monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
     monkeypatch.setattr(trust.typer, "confirm", lambda text, **_: asked.append(text))
     with pytest.raises(UntrustedError, match=r"mine: holds native code .* say --trust"):
-        require_trust({"mine": spring}, None)
+        require_trust({"mine": spring})
     assert "mine holds native code" in asked[0] and asked[0].endswith("Run it?")
     monkeypatch.setattr(trust.typer, "confirm", lambda *_, **__: True)
-    assert len(require_trust({"mine": spring}, None)) == 1
+    assert len(require_trust({"mine": spring})) == 1
 
 
 @fault(

@@ -49,7 +49,7 @@ def compared(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
     (folder / "short.toml").write_text(SHORT)
     command = [sys.executable, "-P", "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
-    command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out"]
+    command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out", "--fmus", "fmus"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return folder, done.stdout
