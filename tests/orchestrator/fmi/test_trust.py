@@ -192,9 +192,8 @@ def test_a_doctored_bearing_of_the_plain_name_is_passed_over(short, small_fmus, 
     """It is neither run nor changed."""
     folder = tmp_path / "cloned"
     folder.mkdir()
-    mine = with_entry(
-        small_fmus / "bearing_v3.fmu", folder / "bearing_v3.fmu", "resources/evil.py"
-    ).read_bytes()
+    path = with_entry(small_fmus / "bearing_v3.fmu", folder / "bearing_v3.fmu", "resources/evil.py")
+    mine = path.read_bytes()
     result = call("run", short, "--fmus", folder, "--out", tmp_path / "o", "--no-figures")
     assert result.exit_code == 0, result.output
     assert path.read_bytes() == mine
