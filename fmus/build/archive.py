@@ -1,4 +1,4 @@
-"""Writes an FMU or SSP archive: whole or not at all, the same bytes for the same content; and tells its own."""
+"""Writes an FMU or SSP archive: whole or not at all, the same bytes for the same content."""
 
 from __future__ import annotations
 
