@@ -74,6 +74,8 @@ class Depth:
         Whether it sees tilts and gives moments.
     isotropic : bool
         Whether no direction is unlike another, as in a plain bore: turned inputs give turned outputs.
+    affine : bool
+        Whether its wrench is an affine function of position and velocity, and no film is solved.
     quick : bool
         Whether an evaluation takes some microseconds only, which threads would but delay.
     colour : str
@@ -88,6 +90,7 @@ class Depth:
     memory: bool = False
     tilts: bool = False
     isotropic: bool = True
+    affine: bool = False
     quick: bool = False
     colour: str = ""
 
@@ -130,6 +133,11 @@ def names() -> tuple[str, ...]:
     return tuple(_DEPTHS)
 
 
+def films() -> tuple[str, ...]:
+    """Names of the depths that solve a film, the most detailed of bladeloss first."""
+    return tuple(depth.name for depth in _DEPTHS.values() if not depth.affine)
+
+
 def find(name: str) -> Depth:
     """The depth of this name; ValueError if there is none."""
     if name not in _DEPTHS:
@@ -161,6 +169,19 @@ register(
         title="short bearing",
         text="Journal bearing: short-bearing formula, with solid contact.",
         film="bearing_fmu.films.short.depth:make",
+        quick=True,
+    )
+)
+LINEAR = register(
+    Depth(
+        name="linear",
+        title="stiffness and damping",
+        text="Journal bearing: stiffness and damping about a static load, constant or over speed.",
+        film="bearing_fmu.films.linear.depth:make",
+        parameters=(*port.BEARING_PARAMETERS, *port.LINEAR_PARAMETERS),
+        tilts=True,
+        isotropic=False,
+        affine=True,
         quick=True,
     )
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from bearing_fmu import depths
-from fmus.build.promises import ISOTROPIC, MEMORYLESS
+from fmus.build.promises import AFFINE, ISOTROPIC, MEMORYLESS
 from fmus.build.recipe import Recipe
 from fmus.port.variable import Value
 
@@ -38,6 +38,7 @@ def bearing_recipe(name: str, starts: Mapping[str, Value] | None = None) -> Reci
     own = depth.film.partition(":")[0]
     # the films of this package travel together, so that units of all depths share their sources
     films = sorted({module for module in modules if module.startswith("bearing_fmu.")} | {own})
+    promised = ((MEMORYLESS, not depth.memory), (ISOTROPIC, depth.isotropic), (AFFINE, depth.affine))
     return Recipe(
         file_name=file_name(name),
         name=f"{PREFIX}{name}",
@@ -49,7 +50,5 @@ def bearing_recipe(name: str, starts: Mapping[str, Value] | None = None) -> Reci
         variables=lambda: depth.variables,
         arguments={"depth": name, "film": depth.film, "starts": dict(sorted((starts or {}).items()))},
         starts=starts or {},
-        promises=tuple(
-            word for word, given in ((MEMORYLESS, not depth.memory), (ISOTROPIC, depth.isotropic)) if given
-        ),
+        promises=tuple(word for word, given in promised if given),
     )

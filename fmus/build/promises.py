@@ -4,6 +4,8 @@
 saved state to take a step back: the next step on other inputs overwrites all.
 
 ``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
+
+``affine``: its wrench is the affine law itself, at any state: stiffness and damping are constants.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement
 
-MEMORYLESS, ISOTROPIC = "memoryless", "isotropic"
+MEMORYLESS, ISOTROPIC, AFFINE = "memoryless", "isotropic", "affine"
 _TOOL, _MARK = "bladeloss", "Promises"
 
 

@@ -45,6 +45,17 @@ from fmus.port.connector import (
     K,
 )
 from fmus.port.failure import FAILURE, Failure
+from fmus.port.linear_bearing import (
+    DAMPING,
+    LINEAR_PARAMETERS,
+    STATIC_POSITION,
+    STATIC_WRENCH,
+    STIFFNESS,
+    coefficient_rows,
+    coefficient_text,
+    coefficient_values,
+    rows_of_values,
+)
 from fmus.port.rotor_variables import at_bearing, rotor
 from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability, Variable, with_starts
 
@@ -55,6 +66,7 @@ __all__ = [
     "BEARING_KEYS",
     "BEARING_OUTPUTS",
     "BEARING_PARAMETERS",
+    "DAMPING",
     "ENERGY",
     "F0",
     "FAILURE",
@@ -62,9 +74,13 @@ __all__ = [
     "JOURNAL",
     "KINEMATICS",
     "LAW",
+    "LINEAR_PARAMETERS",
     "NOMINAL_SPEED",
     "POSITION",
     "SPEED",
+    "STATIC_POSITION",
+    "STATIC_WRENCH",
+    "STIFFNESS",
     "UNITS",
     "VELOCITY",
     "WORK",
@@ -80,7 +96,11 @@ __all__ = [
     "Variable",
     "at_bearing",
     "bearing_parameter",
+    "coefficient_rows",
+    "coefficient_text",
+    "coefficient_values",
     "default_of",
     "rotor",
+    "rows_of_values",
     "with_starts",
 ]

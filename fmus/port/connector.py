@@ -29,8 +29,8 @@ KINEMATIC_TEXT = (
 )
 WRENCH_UNITS = ("N", "N", "N.m", "N.m")
 WRENCH_TEXT = ("force in x", "force in y", "moment about x", "moment about y")
-_STIFFNESS_UNITS = (("N/m", "N/rad"), ("N", "N.m/rad"))
-_DAMPING_UNITS = (("N.s/m", "N.s/rad"), ("N.s", "N.m.s/rad"))
+STIFFNESS_UNITS = (("N/m", "N/rad"), ("N", "N.m/rad"))
+DAMPING_UNITS = (("N.s/m", "N.s/rad"), ("N.s", "N.m.s/rad"))
 
 JOURNAL = tuple(f"journal.{name}" for name in KINEMATICS)
 FORCE = tuple(f"wrench.{name}" for name in WRENCH)
@@ -65,8 +65,8 @@ def law(causality: Causality, prefix: str = "", depends_on: tuple[str, ...] = ()
             depends_on=depends_on,
         )
     for names, units, symbol, rate, nominal in (
-        (K, _STIFFNESS_UNITS, "stiffness", "q", 1e9),
-        (C, _DAMPING_UNITS, "damping", "v", 1e7),
+        (K, STIFFNESS_UNITS, "stiffness", "q", 1e9),
+        (C, DAMPING_UNITS, "damping", "v", 1e7),
     ):
         for index, name in enumerate(names):
             i, j = divmod(index, 4)

@@ -59,11 +59,12 @@ def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterat
     """
     found = list(_position(shaft, entry))
     on_shaft = not found
-    if on_shaft and kind != "wheel":
+    if on_shaft and kind == "coupling":
         found += _inside(shaft, entry)
     if isinstance(entry, BearingEntry):
-        found += _film(entry)
-        found += _seat(shaft, entry) if on_shaft else ()
+        if entry.has_film:
+            found += _film(entry)
+            found += _seat(shaft, entry) if on_shaft else ()
     elif isinstance(entry, WheelEntry):
         found += _body(entry)
     for key, text in found:
@@ -117,6 +118,8 @@ def _film(entry: BearingEntry) -> Iterator[tuple[str, str]]:
             f"roughness = {entry.roughness!r}; allowed is at most a tenth of the clearance, "
             f"{0.1 * entry.clearance:.3g} m",
         )
+    if entry.load is not None and entry.load <= 0.0:
+        yield "load", f"load = {entry.load!r}; allowed is a number greater than 0"
     if 0.0 < entry.contact_modulus < SOFTEST_CONTACT:
         yield (
             "contact_modulus",
@@ -174,7 +177,7 @@ def order_problems(
             )
         elif isinstance(before, BearingEntry) and isinstance(after, BearingEntry):
             apart = shaft.z[second] - shaft.z[first]
-            if apart < (needed := 0.5 * (before.width + after.width)):
+            if apart < (needed := 0.5 * sum(b.width for b in (before, after) if b.has_film)):
                 yield (
                     (kind, index, "z"),
                     f"bearing {after.name!r} overlaps {before.name!r}: their middles are {apart:.6g} m "
@@ -187,7 +190,7 @@ def rotor_problems(shaft: Train, couplings: Sequence[Placed], nodes: Nodes) -> I
     names = ["the front end", *(repr(c.name) for c in couplings), "the rear end"]
     cuts = [0, *nodes["coupling"], shaft.nodes - 1]
     for (front, rear), (first, last) in zip(pairwise(names), pairwise(cuts), strict=True):
-        if not any(first < node < last for node in nodes["bearing"]):
+        if not any(first <= node <= last for node in nodes["bearing"]):
             yield (), f"bearing: none between {front} and {rear}; allowed is at least one"
     if len(nodes["bearing"]) < 2:
         yield (), f"bearing: {len(nodes['bearing'])} in all; allowed are at least two"
@@ -204,6 +207,8 @@ def load_problems(train: Train) -> Iterator[Problem]:
         return
     for index, (seat, load) in enumerate(zip(train.bearings, loads.tolist(), strict=True)):
         where = f"bearing {seat.name!r}: static load {load:.4g} N"
+        if not seat.has_film:
+            continue
         most = most_load(seat, train.speed)
         if load <= 0.0:
             yield (

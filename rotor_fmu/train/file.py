@@ -23,7 +23,8 @@ from rotor_fmu.train.checks import (
     order_problems,
     rotor_problems,
 )
-from rotor_fmu.train.schema import BearingEntry, Placed, ShoulderRow, TrainToml, WheelEntry, explain
+from rotor_fmu.train.coefficients import constant, table_text
+from rotor_fmu.train.schema import BORE, BearingEntry, Placed, ShoulderRow, TrainToml, WheelEntry, explain
 from rotor_fmu.train.toml_source import LARGEST, Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 from rotor_fmu.train.wording import choice
@@ -79,7 +80,8 @@ def load_train(name_or_path: str | Path) -> Train:
     table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
     in_table: list[str] = []
     rows = _read_shaft(table, in_table)
-    train, found = _checked(source, rows if not in_table else []) if not problems else (None, [])
+    given = _coefficients(source, path.parent)
+    train, found = _checked(source, rows if not in_table else [], given) if not problems else (None, [])
     in_table += _unknown_materials(rows, source.raw.get("materials"))
     problems += (f"{path}: {text}" for text in source.located(found))
     problems += (f"{table}: {text}" for text in in_table)
@@ -149,9 +151,26 @@ def _unknown_materials(rows: list[tuple[int, ShoulderRow]], materials: Any) -> I
             yield f"row {number}: material = {row.material!r}; {choice(row.material, materials)}"
 
 
-def _checked(source: TomlSource, rows: list[tuple[int, ShoulderRow]]) -> tuple[Train | None, list[Problem]]:
+def _coefficients(source: TomlSource, folder: Path) -> dict[int, str | ValueError]:
+    """Stiffness and damping by the index of the bearing, or what is wrong with its table."""
+    given: dict[int, str | ValueError] = {}
+    for index, entry in _sound(source.raw.get("bearing"), BearingEntry):
+        try:
+            if entry.table is not None:
+                given[index] = table_text(folder / entry.table)
+            elif entry.stiffness is not None or entry.damping is not None:
+                given[index] = constant(entry.stiffness, entry.damping)
+        except ValueError as error:
+            given[index] = error
+    return given
+
+
+def _checked(
+    source: TomlSource, rows: list[tuple[int, ShoulderRow]], given: Mapping[int, str | ValueError]
+) -> tuple[Train | None, list[Problem]]:
     """Return the train, or None with what is wrong in train.toml, by itself and on this shaft."""
     data, found = None, list[Problem]()
+    found += ((("bearing", i, "table"), str(x)) for i, x in given.items() if isinstance(x, ValueError))
     try:
         data = TrainToml.model_validate(source.raw)
     except ValidationError as error:
@@ -165,7 +184,7 @@ def _checked(source: TomlSource, rows: list[tuple[int, ShoulderRow]]) -> tuple[T
         Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials.get(row.material, _ANY))
         for _, row in rows
     )
-    shaft = _train(data, shoulders)
+    shaft = _train(data, shoulders, {}, given)
     for kind, model in _MODELS.items():
         for index, entry in _sound(source.raw.get(kind), model):
             found += entry_problems(shaft, kind, index, entry)
@@ -178,7 +197,7 @@ def _checked(source: TomlSource, rows: list[tuple[int, ShoulderRow]]) -> tuple[T
         found += rotor_problems(shaft, data.coupling, nodes)
     if found or any(row.material not in materials for _, row in rows):
         return None, found
-    train = _train(data, shoulders, nodes)
+    train = _train(data, shoulders, nodes, given)
     return train, list(load_problems(train))
 
 
@@ -194,16 +213,24 @@ def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:
 def _train(
     data: TrainToml | None,
     shoulders: tuple[Shoulder, ...],
-    nodes: Mapping[str, list[int]] | None = None,
+    nodes: Mapping[str, list[int]],
+    given: Mapping[int, str | ValueError],
 ) -> Train:
     """Return the train; without nodes only its shaft, without data only the geometry of that."""
     parts: dict[str, list[dict[str, Any]]] = {kind: [] for kind in _MODELS}
-    for kind, places in (nodes or {}).items():
+    for kind, places in nodes.items():
         entries = getattr(data, kind)
         parts[kind] = [
-            {**entry.model_dump(exclude={"z"}), "node": node}
+            {**entry.model_dump(exclude={"z", "stiffness", "damping", "table"}), "node": node}
             for entry, node in zip(entries, places, strict=True)
         ]
+    for index, seat in enumerate(parts["bearing"]):
+        assert data is not None
+        seat |= {"coefficients": given.get(index, ""), "has_film": data.bearing[index].has_film}
+        if not seat["has_film"]:
+            around = shoulders[max(seat["node"] - 1, 0) : seat["node"] + 1]
+            journal = min(shoulder.outer_diameter for shoulder in around)
+            seat |= {key: share * journal if key != "viscosity" else share for key, share in BORE.items()}
     return Train(
         name=data.name if data else "",
         speed=data.speed if data else 1.0,

@@ -10,9 +10,19 @@ import typing
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    ValidationError,
+    model_validator,
+)
 
 from fmus import port
+from rotor_fmu.train.coefficients import Matrix, matrix
 from rotor_fmu.train.toml_source import Problem
 from rotor_fmu.train.wording import choice, refusal
 
@@ -41,6 +51,12 @@ def grade(default: Any = ...) -> Any:
 
 _LENGTH = "m; did you give mm?"
 _PRESSURE = "Pa; did you give MPa?"
+
+COEFFICIENTS = frozenset(("stiffness", "damping", "table"))
+BORE = {"diameter": 1.0, "width": 0.5, "clearance": 5e-4, "viscosity": 0.02, "roughness": 5e-7}
+"""What a bearing without a bore has in place of one, for a journal of diameter 1: scales, and no film."""
+
+_Matrix = Annotated[Matrix | None, BeforeValidator(matrix)]
 
 
 class _Entry(BaseModel):
@@ -111,9 +127,29 @@ class BearingEntry(Placed):
     roughness: float = positive(1e-4, "m; did you give um?", port.default_of("roughness"))
     contact_modulus: float = within(0.0, 1e13, _PRESSURE, port.default_of("contact_modulus"))
     friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
-    load: float | None = positive(1e9, "N", None)
+    load: float | None = within(-1e9, 1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)
+    stiffness: _Matrix = None
+    damping: _Matrix = None
+    table: str | None = None
+    _has_film: bool = PrivateAttr(True)
+
+    @property
+    def has_film(self) -> bool:
+        """Whether it has a bore, from which a film can be made."""
+        return self._has_film
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _without_bore(cls, data: Any, handler: ModelWrapValidatorHandler[BearingEntry]) -> BearingEntry:
+        """A bearing of which coefficients are given may do without a bore."""
+        bare = isinstance(data, dict) and not COEFFICIENTS.isdisjoint(data) and BORE.keys().isdisjoint(data)
+        entry = handler({**BORE, **data} if bare else data)
+        entry._has_film = not bare
+        if entry.table is not None and (entry.stiffness is not None or entry.damping is not None):
+            raise ValueError("table: given beside stiffness or damping; allowed is one of them")
+        return entry
 
 
 class TrainToml(_Entry):

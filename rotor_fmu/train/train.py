@@ -136,6 +136,10 @@ class BearingSeat:
         Static target load, upwards on the shaft [N]; None: from the catenary.
     residual_tilt_x, residual_tilt_y : float
         Rotation of the bearing's axis against the journal's running axis left by the alignment [rad].
+    coefficients : str
+        Stiffness and damping, constant or over speed, see `fmus.port.coefficient_rows`; empty: from the film.
+    has_film : bool
+        Whether the bore is known.  Without, diameter, width and clearance are but scales of motion.
     """
 
     name: str
@@ -151,6 +155,8 @@ class BearingSeat:
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0
+    coefficients: str = ""
+    has_film: bool = True
 
     @property
     def relative_clearance(self) -> float:

@@ -9,6 +9,8 @@ from typing import Any, TypeAlias
 
 import tomlkit
 
+from fmus import port
+from rotor_fmu.train.schema import BORE
 from rotor_fmu.train.train import BearingSeat, Coupling, Train, Wheel
 
 Placed: TypeAlias = Coupling | BearingSeat | Wheel
@@ -29,6 +31,16 @@ def write_train(train: Train, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "shaft.csv").write_text(shaft_csv(train), encoding="utf-8")
     (folder / "train.toml").write_text(train_toml(train), encoding="utf-8")
+    for seat in train.bearings:
+        if len(port.coefficient_rows(seat.coefficients)) > 1:
+            (folder / _table_file(seat)).write_text(table_csv(seat), encoding="utf-8")
+
+
+def table_csv(seat: BearingSeat) -> str:
+    """Stiffness and damping of a bearing over speed, SI units."""
+    numbers = [f"{letter}{k // 4 + 1}{k % 4 + 1}" for letter in "KC" for k in range(16)]
+    rows = ([repr(x) for x in row] for row in port.coefficient_rows(seat.coefficients))
+    return "\n".join(",".join(row) for row in (["speed", *numbers], *rows)) + "\n"
 
 
 def shaft_csv(train: Train) -> str:
@@ -65,13 +77,30 @@ def train_toml(train: Train) -> str:
     return tomlkit.dumps(content)
 
 
-def _entries(train: Train, part: Placed) -> Iterator[tuple[str, str | float]]:
+def _entries(train: Train, part: Placed) -> Iterator[tuple[str, Any]]:
+    scales = BORE if isinstance(part, BearingSeat) and not part.has_film else {}
     for field in fields(part):
         value = getattr(part, field.name)
         if field.name == "node":
             yield "z", _z(train, part.node)
-        elif value is not None:
+        elif isinstance(part, BearingSeat) and field.name == "coefficients":
+            yield from _given(part)
+        elif value is not None and field.name not in (*scales, "has_film"):
             yield field.name, value if isinstance(value, str) else float(value)
+
+
+def _given(seat: BearingSeat) -> Iterator[tuple[str, Any]]:
+    """Stiffness and damping that are given: two matrices, or the name of their table."""
+    rows = port.coefficient_rows(seat.coefficients)
+    if len(rows) > 1:
+        yield "table", _table_file(seat)
+    for row in rows[:1] if len(rows) == 1 else ():
+        yield "stiffness", [list(row[1 + i : 5 + i]) for i in range(0, 16, 4)]
+        yield "damping", [list(row[17 + i : 21 + i]) for i in range(0, 16, 4)]
+
+
+def _table_file(seat: BearingSeat) -> str:
+    return f"{seat.name}.csv"
 
 
 def _parts(train: Train) -> tuple[Placed, ...]:

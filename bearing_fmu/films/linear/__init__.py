@@ -1,0 +1,1 @@
+"""The bearing as stiffness and damping."""
