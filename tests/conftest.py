@@ -23,7 +23,7 @@ _COMPILE = """
 from bearing_fmu import depths
 from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import TURBINE
-for depth in depths.names():
+for depth in depths.films():
     make_film(depth, TURBINE).respond([1e-4, -2e-4, 1e-6, 0.0], [0.0] * 4, 157.0)
 """
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-_PREFIX = "import sys; import tests.linear_film as added; "
+_PREFIX = "import sys; import tests.spring_film as added; "
 
 
 def in_a_process(code: str, *arguments: str, folder: Path) -> str:
@@ -33,8 +33,8 @@ MAIN = "from orchestrator.cli.main import main; main()"
 
 def test_the_command_line_lists_it(tmp_path):
     for command in ("run", "modes"):
-        assert "v1|v2|v3|linear" in in_a_process(MAIN, command, "--help", folder=tmp_path)
-    assert "linear spring and damper" in " ".join(
+        assert "v1|v2|v3|linear|spring" in in_a_process(MAIN, command, "--help", folder=tmp_path)
+    assert "spring spring and damper" in " ".join(
         in_a_process(MAIN, "run", "--help", folder=tmp_path).replace("│", " ").split()
     )
 
@@ -44,27 +44,27 @@ def test_scenarios_take_it_and_name_it_among_the_allowed(tmp_path):
         """
 from orchestrator.errors import ScenarioError
 from orchestrator.scenario.file import load_scenario
-print(load_scenario("small", {"depth": "linear"}).depth)
+print(load_scenario("small", {"depth": "spring"}).depth)
 try:
-    load_scenario("small", {"depth": "linaer"})
+    load_scenario("small", {"depth": "sprign"})
 except ScenarioError as error:
     print(error)
 """,
         folder=tmp_path,
     )
-    assert said.startswith("linear\n")
-    assert "did you mean 'linear'? allowed are v1, v2, v3, linear" in said
+    assert said.startswith("spring\n")
+    assert "did you mean 'spring'? allowed are v1, v2, v3, linear, spring" in said
 
 
 def test_figures_give_it_a_colour_and_its_title(tmp_path):
     said = in_a_process(
         """
 from orchestrator.results.figures import style
-print(style.depth_name("linear"), len({style.colour_of(d) for d in ("v1", "v2", "v3", "linear", "mixed")}))
+print(style.depth_name("spring"), len({style.colour_of(d) for d in ("v1", "v2", "v3", "spring", "mixed")}))
 """,
         folder=tmp_path,
     )
-    assert said == "LINEAR: spring and damper 5\n"
+    assert said == "SPRING: spring and damper 5\n"
 
 
 RUN = """
@@ -74,10 +74,10 @@ from orchestrator.case.simulate import default_threads, simulate
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.scenario.file import load_scenario, train_of
 from rich.console import Console
-scenario = load_scenario("small", {"depth": "linear", "end": 2e-3, "event": None})
+scenario = load_scenario("small", {"depth": "spring", "end": 2e-3, "event": None})
 train = train_of(scenario)
 folder = Path(sys.argv[1])
-ensure_fmus(folder, train, {"linear"}, Console(stderr=True))
+ensure_fmus(folder, train, {"spring"}, Console(stderr=True))
 assert default_threads(scenario, train) == 1
 record = simulate(scenario, folder).record
 assert record.attrs["status"] == "finished", record.attrs
@@ -91,8 +91,8 @@ def test_it_is_built_and_run(tmp_path):
     from zipfile import ZipFile
 
     in_a_process(RUN, "fmus", folder=tmp_path)
-    with ZipFile(tmp_path / "fmus" / "bearing_linear.fmu") as archive:
-        assert "resources/packages/tests/linear_film.py" in archive.namelist()
+    with ZipFile(tmp_path / "fmus" / "bearing_spring.fmu") as archive:
+        assert "resources/packages/tests/spring_film.py" in archive.namelist()
         description = archive.read("modelDescription.xml").decode()
     assert 'name="film.scale"' in description and "a linear spring and damper" in description
     assert 'memoryless="true"' in description and "isotropic" not in description
@@ -107,9 +107,9 @@ from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start
 from orchestrator.master.start.journal_position import ALIGNED, aligned_positions
 from orchestrator.scenario.file import load_scenario, train_of
-scenario = load_scenario("small", {"depth": "linear"})
+scenario = load_scenario("small", {"depth": "spring"})
 train = train_of(scenario)
-build(Path("fmus"), [train], ["linear"])
+build(Path("fmus"), [train], ["spring"])
 clearances = np.array([seat.clearance for seat in train.bearings])
 turn = np.array([[np.cos(%(angle)s), -np.sin(%(angle)s)], [np.sin(%(angle)s), np.cos(%(angle)s)]])
 added.STIFFNESS[:] = turn @ added.STIFFNESS @ turn.T
@@ -136,7 +136,7 @@ def test_a_start_is_found_where_directions_are_unlike(angle, tmp_path):
     in_a_process(START % {"angle": angle}, folder=tmp_path)
 
 
-@pytest.mark.parametrize("name", ["v1", "Linear", "a-b", ""])
+@pytest.mark.parametrize("name", ["v1", "Spring", "a-b", ""])
 def test_names_that_are_taken_or_unfit_are_refused(name):
     from dataclasses import replace
 

@@ -18,6 +18,7 @@ from orchestrator.fmi.trust import require_trust
 from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
 from orchestrator.results.folder import check_folder, check_room, check_writable
 from orchestrator.scenario.file import load_with_train, parse_with_train, scenario_toml
+from orchestrator.scenario.parameters import needed_depths
 from orchestrator.scenario.problems import record_size
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.recipe import rotor_recipe
@@ -57,8 +58,7 @@ def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = No
         foreign = case.units.foreign(case.scenario)
         trusted = require_trust(foreign, trust=request.trust, known=known)
         if not request.is_ssp:
-            depths = {case.scenario.depth_of(name) for name in names}
-            ensure_fmus(request.fmus, case.train, depths, console)
+            ensure_fmus(request.fmus, case.train, needed_depths(case.scenario, case.train), console)
         yield replace(case, about={**case.about, "trusted": trusted})
 
 

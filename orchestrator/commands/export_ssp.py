@@ -10,6 +10,7 @@ from fmus.build.builder import NotOursError, check_target
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import own_bearings, require_trust
 from orchestrator.scenario.file import load_with_train
+from orchestrator.scenario.parameters import needed_depths
 from orchestrator.ssp.export import export, force_only
 from orchestrator.ssp.structure import SspError
 
@@ -50,7 +51,7 @@ def export_scenario(
     except NotOursError as error:
         raise SspError(str(error)) from None
     require_trust(own_bearings(scenario), trust=trust)
-    ensure_fmus(fmus, train, {scenario.depth_of(seat.name) for seat in train.bearings}, console)
+    ensure_fmus(fmus, train, needed_depths(scenario, train), console)
     console.print("Solving the static equilibrium", highlight=False)
     try:
         written = export(scenario, fmus, path, path.stem)

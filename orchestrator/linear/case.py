@@ -20,8 +20,14 @@ from orchestrator.linear.operating_point import OperatingPoint, bearing_data, op
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
-from orchestrator.scenario.file import bundled_scenarios, load_with_train, read_train, scenario_toml
-from orchestrator.scenario.parameters import wheel_unbalances
+from orchestrator.scenario.file import (
+    bundled_scenarios,
+    load_with_train,
+    on_train,
+    read_train,
+    scenario_toml,
+)
+from orchestrator.scenario.parameters import needed_depths, wheel_unbalances
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.linear.analysis import (
     DEFAULT_SIZE,
@@ -136,9 +142,8 @@ class LinearCase:
     @cached_property
     def operating_point(self) -> OperatingPoint:
         """Linearised bearings at rated speed; FMUs are built where missing."""
-        depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
         require_trust(own_bearings(self.scenario), trust=self.request.trust)
-        ensure_fmus(self.request.fmus, self.train, depths, self.console)
+        ensure_fmus(self.request.fmus, self.train, needed_depths(self.scenario, self.train), self.console)
         return operating_point(self.scenario, self.train, self.request.fmus)
 
     @property
@@ -176,7 +181,8 @@ def linear_case(request: LinearRequest, console: Console) -> LinearCase:
     else:
         train = read_train(request.source)
         settings: dict[str, Any] = {"train": request.source, "end": 1.0, "title": f"Train {train.name}"}
-        scenario = Scenario.model_validate(settings | ({"depth": request.depth} if request.depth else {}))
+        settings |= {"depth": request.depth} if request.depth else {}
+        scenario = on_train(Scenario.model_validate(settings), train)
     check_folder(request.folder, f"{request.command}.nc")
     return LinearCase(request, scenario, train, console)
 

@@ -6,20 +6,27 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from bearing_fmu.depths import LINEAR
 from bearing_fmu.recipe import bearing_recipe
+from fmus import port
 from fmus.build.builder import place
 from fmus.build.recipe import Recipe
-from orchestrator.errors import FmuError
+from orchestrator.errors import EquilibriumError, FmuError
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.coupling import SCHEMES
+from orchestrator.master.start.equilibrium import find_start
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
+    linearised,
     rotor_parameters,
 )
 from orchestrator.scenario.scenario import Scenario, is_fmu
+from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
@@ -36,10 +43,15 @@ class Part:
 def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
     """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters.
 
+    Where depth linear has no stiffness and damping from the train, it has those of the film of
+    `Scenario.linear_from` at the static equilibrium on these films, which is found here.
+
     Raises
     ------
     FmuError
         When an FMU in the folder is not that of this train, these films and this program.
+    EquilibriumError
+        When films that are to be linearised find none.
     """
     yield Part("rotor", _built(rotor_recipe(train), fmus, store), rotor_parameters(scenario, train))
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
@@ -49,9 +61,10 @@ def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStor
         else _built(bearing_recipe(depth), fmus, store)
         for depth in sorted(depths)
     }
+    linear = _linear_parameters(scenario, train, fmus, store)
     for seat in train.bearings:
         file = files[scenario.depth_of(seat.name)]
-        values = bearing_parameters(seat, scenario.film)
+        values = bearing_parameters(seat, scenario.film) | linear.get(seat.name, {})
         yield Part(seat.name, file, {name: x for name, x in values.items() if name in file.variables})
 
 
@@ -66,6 +79,38 @@ def _built(recipe: Recipe, fmus: Path, store: FmuStore) -> FmuFile:
 def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, threads: int = 1) -> System:
     """Make the system of a scenario from a folder of FMUs; otherwise as `join`."""
     return join(parts_in_folder(scenario, train, fmus, store), scenario, train.speed, fmus, threads)
+
+
+def _linear_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> dict[str, Values]:
+    """What bearings of depth linear have by name: static wrench, where it acts, stiffness, damping."""
+    linear = [seat for seat in train.bearings if scenario.depth_of(seat.name) == LINEAR.name]
+    found: dict[str, Values] = {}
+    if any(seat.coefficients for seat in linear):
+        loads = dict(zip((seat.name for seat in train.bearings), target_loads(train), strict=True))
+        for seat in linear:
+            values = port.coefficient_values(seat.coefficients) if seat.coefficients else {}
+            found[seat.name] = {"static.Fy": float(loads[seat.name]), **values}
+    if not linearised(scenario, train):
+        return found
+    films = {seat.name: scenario.linear_from for seat in linearised(scenario, train)}
+    depth = scenario.linear_from if scenario.depth == LINEAR.name else scenario.depth
+    given = {seat.name: LINEAR.name for seat in linear if seat.coefficients}
+    changes = {"depth": depth, "depth_at": {**scenario.depth_at, **given, **films}}
+    system = assemble(scenario.model_copy(update=changes), train, fmus, store)
+    try:
+        start = find_start(system, train.bearings, train.speed, train.nodes)
+        names = (*port.STATIC_WRENCH, *port.STATIC_POSITION, *port.STIFFNESS, *port.DAMPING)
+        stiffness, damping = np.split(system.tangents, 2, axis=2)
+        positions = system.bearing_inputs[:, :4] - start.offsets
+        for i, seat in enumerate(train.bearings):
+            if seat.name in films:
+                parts = system.forces[i], positions[i], stiffness[i].ravel(), damping[i].ravel()
+                found[seat.name] = dict(zip(names, np.concatenate(parts).tolist(), strict=True))
+    except UnitError as error:
+        raise EquilibriumError(str(error)) from None
+    finally:
+        system.close()
+    return found
 
 
 def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, threads: int = 1) -> System:

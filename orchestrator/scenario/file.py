@@ -9,8 +9,10 @@ from typing import Any
 import tomlkit
 from pydantic import ValidationError
 
+from bearing_fmu.depths import LINEAR
 from orchestrator.errors import OrchestratorError, ScenarioError
 from orchestrator.scenario.problems import (
+    depth_problems,
     event_problems,
     file_problems,
     name_problems,
@@ -165,12 +167,22 @@ def _checked(
         problems += time_problems(scenario, train)
         problems += unbalance_problems(scenario, train)
         problems += event_problems(scenario)
+        problems += depth_problems(scenario, train)
     if scenario is None or train is None or problems:
         # An override stands on no line.
         written = map(_of_single, problems) if single else problems
         places = (((), text) if _holds(overrides, at) else (at, text) for at, text in written)
         raise ScenarioError(source, list(toml.located(places)))
-    return scenario, train
+    return on_train(scenario, train), train
+
+
+def on_train(scenario: Scenario, train: Train) -> Scenario:
+    """The scenario with depth linear at the bearings that have no bore, and everywhere if none has one."""
+    bare = [seat.name for seat in train.bearings if not seat.has_film and seat.name not in scenario.depth_at]
+    if len(bare) == len(train.bearings):
+        return scenario.model_copy(update={"depth": LINEAR.name})
+    there = {name: LINEAR.name for name in bare if scenario.depth != LINEAR.name}
+    return scenario.model_copy(update={"depth_at": {**scenario.depth_at, **there}}) if there else scenario
 
 
 def _of_single(problem: Problem) -> Problem:

@@ -4,10 +4,25 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bearing_fmu.depths import LINEAR
 from fmus import port
 from orchestrator.scenario.events import Values
 from orchestrator.scenario.scenario import FilmResolution, Scenario
 from rotor_fmu.train.train import BearingSeat, Train
+
+
+def needed_depths(scenario: Scenario, train: Train) -> set[str]:
+    """Depths of which a scenario needs FMUs: those of its bearings, and films that are to be linearised."""
+    needed = {scenario.depth_of(seat.name) for seat in train.bearings}
+    return needed | ({scenario.linear_from} if any(linearised(scenario, train)) else set())
+
+
+def linearised(scenario: Scenario, train: Train) -> list[BearingSeat]:
+    """Bearings of depth linear whose stiffness and damping are to be those of a film."""
+    return [
+        seat for seat in train.bearings
+        if scenario.depth_of(seat.name) == LINEAR.name and not seat.coefficients
+    ]  # fmt: skip
 
 
 def rotor_parameters(scenario: Scenario, train: Train) -> Values:

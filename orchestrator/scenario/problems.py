@@ -11,6 +11,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from bearing_fmu import depths
+from bearing_fmu.depths import LINEAR
 from orchestrator.scenario.events import KINDS, BladeLoss, Event, contradictions
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from rotor_fmu.train.toml_source import Location, Problem
@@ -143,6 +145,18 @@ def event_problems(scenario: Scenario) -> Iterator[Problem]:
     for index, key, reason in contradictions(scenario.events):
         value = getattr(scenario.events[index], key)
         yield ("events", index, key), f"events.{index}.{key} = {value!r}; {reason}"
+
+
+def depth_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield films asked for at bearings without a bore."""
+    for seat in train.bearings:
+        depth = scenario.depth_at.get(seat.name, LINEAR.name)
+        if not seat.has_film and depth in depths.films():
+            yield (
+                ("depth_at", seat.name),
+                f"depth_at.{seat.name} = {depth!r}; allowed is {LINEAR.name!r} or an .fmu file: the train "
+                "gives stiffness and damping of this bearing, and no bore",
+            )
 
 
 def record_size(scenario: Scenario, train: Train) -> float:

@@ -42,7 +42,14 @@ def _check_depth_or_fmu(value: Any) -> Any:
     raise PydanticCustomError("depth", "no depth", {"allowed": (*depths.names(), "the path of an .fmu file")})
 
 
+def _check_film(value: Any) -> Any:
+    if isinstance(value, str) and value in depths.films():
+        return value
+    raise PydanticCustomError("depth", "no depth", {"allowed": depths.films()})
+
+
 Depth = Annotated[str, PlainValidator(_check_depth)]
+FilmDepth = Annotated[str, PlainValidator(_check_film)]
 DepthOrFmu = Annotated[str, PlainValidator(_check_depth_or_fmu)]
 """A depth, or the path of an FMU with the port of a bearing."""
 
@@ -127,6 +134,9 @@ class Scenario(Model):
     depth_at : dict
         Depth by name of the bearing, where it differs; or the path of an FMU with the port of a
         bearing, relative to the scenario's file.
+    linear_from : str
+        Depth of the film from which a bearing of depth linear has stiffness and damping, at the static
+        equilibrium, where its train does not give them.
     unbalance : Unbalance
         Nominal unbalance.
     events : tuple of Event
@@ -161,6 +171,7 @@ class Scenario(Model):
     reduction: Reduction = "irs"
     depth: Depth = depths.names()[0]
     depth_at: dict[str, DepthOrFmu] = {}  # noqa: RUF012
+    linear_from: FilmDepth = depths.films()[0]
     unbalance: Unbalance = Unbalance()
     events: Annotated[tuple[AnyEvent, ...], Field(strict=False)] = ()
     end: Interval

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,13 +17,12 @@ from fmus.build.recipe import Recipe
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit
-from orchestrator.master.assembly import assemble
+from orchestrator.master.assembly import join, parts_in_folder
 from orchestrator.master.start.equilibrium import Start, find_start
 from orchestrator.master.system import System, Wiring, port_connections
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.parameters import (
     Values,
-    bearing_parameters,
     offset_names,
     rotor_parameters,
     start_names,
@@ -72,10 +71,11 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
     """
     train = train_of(scenario)
     with tempfile.TemporaryDirectory(prefix="bladeloss_ssp_") as temporary, FmuStore() as store:
-        system = assemble(scenario, train, fmus, store)
+        made = list(parts_in_folder(scenario, train, fmus, store))
+        system = join(made, scenario, train.speed, fmus)
         try:
             start = find_start(system, train.bearings, train.speed, train.nodes)
-            parts = _Parts(scenario, train, fmus, Path(temporary))
+            parts = _Parts(scenario, train, {part.name: part.parameters for part in made}, Path(temporary))
             components = tuple(parts.components(system, start))
         finally:
             system.close()
@@ -102,10 +102,12 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
 class _Parts:
     """Components of a scenario and the FMUs they refer to, each FMU once."""
 
-    def __init__(self, scenario: Scenario, train: Train, fmus: Path, temporary: Path) -> None:
-        self.scenario, self.train, self.fmus, self.temporary = scenario, train, fmus, temporary
+    def __init__(
+        self, scenario: Scenario, train: Train, values: Mapping[str, Values], temporary: Path
+    ) -> None:
+        self.scenario, self.train, self.values, self.temporary = scenario, train, values, temporary
         self.files: dict[str, bytes] = {}
-        self._sources: dict[Path, str] = {}
+        self._sources: dict[tuple[Path, tuple[tuple[str, str], ...]], str] = {}
 
     def components(self, system: System, start: Start) -> Iterator[Component]:
         """Yield rotor and bearings: Real settings as parameters, others as start values of their FMUs."""
@@ -118,7 +120,7 @@ class _Parts:
         journals = np.hstack([start.static + start.cosine, self.train.speed * start.sine])
         of_bearings = zip(system.bearings, self.train.bearings, start.offsets, journals, strict=True)
         for unit, seat, offset, journal in of_bearings:
-            given = bearing_parameters(seat, self.scenario.film) | {port.SPEED: self.train.speed}
+            given = {**self.values[seat.name], port.SPEED: self.train.speed}
             given |= _named(offset_names(), offset) | _named(port.JOURNAL, journal)
             name = _identifier(seat.name)
             if name in taken:
@@ -135,7 +137,7 @@ class _Parts:
 
     def _source(self, file: FmuFile, bearing: str | None, starts: Values) -> str:
         """Return where the FMU lies in the archive; build it anew where it needs other start values."""
-        key = file.path.resolve()
+        key = file.path.resolve(), tuple(sorted((name, str(value)) for name, value in starts.items()))
         if key not in self._sources:
             content = file.path.read_bytes()
             if starts:

@@ -20,6 +20,7 @@ from rotor_fmu.linear.reduction_report import ReductionReport, matched, reductio
 from rotor_fmu.linear.whirl import LinearBearings, WhirlModes, campbell, half_axes, whirl_modes
 from rotor_fmu.reduction.reduce import DEFAULT_SIZE, METHODS, Method, ReducedShaft, reduce
 from rotor_fmu.shaft.matrices import ShaftModel, assemble
+from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
 
 __all__ = [
@@ -42,6 +43,7 @@ __all__ = [
     "modal_truncation",
     "reduced_shaft",
     "reduction_report",
+    "target_loads",
     "unbalance_responses",
     "unreduced_shaft",
     "whirl_modes",

@@ -59,7 +59,8 @@ def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterat
     """
     found = list(_position(shaft, entry))
     on_shaft = not found
-    if on_shaft and kind == "coupling":
+    bare = isinstance(entry, BearingEntry) and not entry.has_film
+    if on_shaft and kind != "wheel" and not bare:
         found += _inside(shaft, entry)
     if isinstance(entry, BearingEntry):
         if entry.has_film:
@@ -207,8 +208,8 @@ def load_problems(train: Train) -> Iterator[Problem]:
         return
     for index, (seat, load) in enumerate(zip(train.bearings, loads.tolist(), strict=True)):
         where = f"bearing {seat.name!r}: static load {load:.4g} N"
-        if not seat.has_film:
-            continue
+        if seat.coefficients:
+            continue  # stiffness and damping carry whatever there is
         most = most_load(seat, train.speed)
         if load <= 0.0:
             yield (

@@ -94,7 +94,9 @@ def table_text(path: Path) -> str:
                 row[place] = factor * float(cell)
         except ValueError:
             wanted = f"{len(columns)} numbers"
-            raise ValueError(f"{path.name}: row {number}: {','.join(cells)!r}; allowed are {wanted}") from None
+            raise ValueError(
+                f"{path.name}: row {number}: {','.join(cells)!r}; allowed are {wanted}"
+            ) from None
         rows.append(row)
     text = port.coefficient_text(sorted(rows))
     try:
@@ -120,7 +122,9 @@ def _columns(file: str, head: list[str]) -> Iterator[tuple[int, float]]:
         factors = _FACTORS.get(letter, _SPEED)
         factor = 1.0 if unit is None else factors.get(re.sub(r"[\s.*]", "", unit).lower())
         if factor is None or (unit is not None and letter and (k % 4 > 1 or k > 7)):
-            raise ValueError(f"{file}: unit [{unit}] of {name}; allowed are {', '.join(factors)}, or none for SI")
+            raise ValueError(
+                f"{file}: unit [{unit}] of {name}; allowed are {', '.join(factors)}, or none for SI"
+            )
         yield place, factor
     if "speed" not in {name.lower() for name in seen}:
         raise ValueError(f"{file}: no column 'speed'; it must be given, in rad/s or as speed [rpm]")

@@ -17,7 +17,7 @@ from fmus import port
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond
 from tests.faults import fault
 
-DEPTHS = depths.names()
+DEPTHS = depths.films()
 
 
 def port_inputs(q=(0.2, -0.7, 0.05, 0.1), v=(0.01, 0.02, 0.0, 0.03), parameters=TURBINE):

@@ -18,7 +18,7 @@ START = {v.name: v.start for v in port.BEARING}
 PARAMETERS = BearingParameters.of(START)
 
 
-@pytest.fixture(params=depths.names())
+@pytest.fixture(params=depths.films())
 def depth(request):
     return request.param
 

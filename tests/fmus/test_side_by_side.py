@@ -33,7 +33,7 @@ def seat_values(seat):
     }
 
 
-@pytest.mark.parametrize("depths", list(product(depths.names(), repeat=2))[::2])
+@pytest.mark.parametrize("depths", list(product(depths.films(), repeat=2))[::2])
 def test_a_coupled_train_of_any_depths_runs(hosts, small_train, depths):
     rotor = hosts["rotor_small.fmu"].open("rotor").start()
     bearings = {}

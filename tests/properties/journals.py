@@ -12,7 +12,7 @@ from bearing_fmu import depths
 from bearing_fmu.film import Film, make_film
 from bearing_fmu.parameters import BearingParameters
 
-DEPTHS = st.sampled_from(depths.names())
+DEPTHS = st.sampled_from(depths.films())
 _RESOLUTIONS = st.sampled_from([(48, 8), (32, 6), (17, 3), (64, 10)])
 
 

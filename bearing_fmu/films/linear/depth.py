@@ -53,7 +53,9 @@ class LinearBearing:
         for key in ("diameter", "width", "clearance", "viscosity"):
             variable = port.bearing_parameter(key)
             if not variable.admits(float(values[variable.name])):
-                raise ValueError(f"bearing parameter {key} = {values[variable.name]!r}: must be {variable.range}")
+                raise ValueError(
+                    f"bearing parameter {key} = {values[variable.name]!r}: must be {variable.range}"
+                )
         diameter, width, self._clearance, viscosity = (
             float(values[name]) for name in ("diameter", "width", "clearance", "viscosity")
         )

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmus import port
+from fmus.build.promises import AFFINE
 from orchestrator.errors import EquilibriumError
 from orchestrator.master.start.journal_position import aligned_positions, carry, evaluate, tilted_positions
 from orchestrator.master.system import System
@@ -98,14 +99,15 @@ def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
     if not np.all(np.isfinite(loads)):
         raise EquilibriumError(f"rotor: no target loads: {system.rotor.reason}")
-    if not np.all(loads > 0.0):
-        worst = int(np.argmin(loads))
+    lifted = (loads <= 0.0) & np.array([AFFINE not in unit.file.promises for unit in system.bearings])
+    if lifted.any():
+        worst = int(np.argmin(np.where(lifted, loads, np.inf)))
         raise EquilibriumError(f"{seats[worst].name}: target load {loads[worst]:.4g} N; allowed is > 0")
     forces = np.column_stack([np.zeros_like(loads), loads])
     film = aligned_positions(system, loads, clearances)
     film = tilted_positions(system, forces, film, -residual)
     system.rotor.set_parameters({"start.from_law": True, "start.orbit": False})
-    shape, film = _align(system, forces, film, loads / clearances)
+    shape, film = _align(system, forces, film, np.abs(loads) / clearances)
     offsets = shape - film
     for bearing, offset in zip(system.bearings, offsets, strict=True):
         bearing.set_real(offset_names(), offset)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.build.promises import ISOTROPIC
+from fmus.build.promises import AFFINE, ISOTROPIC
 from orchestrator.errors import EquilibriumError
 from orchestrator.master.system import RESPONSE, System
 
@@ -33,6 +33,9 @@ REACH = 0.3
 TOLERANCE = 1e-10
 """Of the film's force against the load."""
 
+NO_LOAD = 1e-6
+"""Share of the largest load below which a load is measured against this share."""
+
 _GAP = RESPONSE["h_min"]
 _FORCE = slice(RESPONSE["wrench.Fx"], RESPONSE["wrench.Fy"] + 1)
 _STIFFNESS = slice(RESPONSE["K[1,1]"], RESPONSE["K[4,4]"] + 1)
@@ -50,6 +53,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     """Positions of aligned journals under vertical loads.
 
     Along one direction of displacement the film's force grows, so that its size is bracketed and bisected.
+    A bearing that promises to be affine needs no search.
     A bearing that promises to be isotropic is then turned until the force points up: the angle between both
     stays.  For others the direction is searched, too: as the displacement makes a turn, so does the force,
     and the directions between which it passes the vertical are brought together.
@@ -59,7 +63,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     system : System
         In Initialization Mode, offsets zero.
     loads : ndarray (bearings,)
-        Upward forces on the journals in N.
+        Upward forces on the journals in N, positive but at affine bearings.
     clearances : ndarray (bearings,)
         Radial clearances in m.
 
@@ -74,13 +78,17 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     EquilibriumError
         When a film does not carry its load at any position.
     """
-    isotropic = np.array([ISOTROPIC in unit.file.promises for unit in system.bearings])
+    isotropic, affine = (
+        np.array([word in unit.file.promises for unit in system.bearings]) for word in (ISOTROPIC, AFFINE)
+    )
+    if affine.all():
+        return _affine_positions(system, loads)
     angle = np.zeros_like(loads)
     share, turn, carried = _along(system, angle, loads, clearances)
     angle = np.where(isotropic, turn, angle)
     ends = np.full((2, len(loads)), np.nan)  # directions from which the force must be turned forth and back
     turns = np.zeros_like(ends)
-    searched = ~isotropic & (np.abs(turn) > ALIGNED)
+    searched = ~isotropic & ~affine & (np.abs(turn) > ALIGNED)
     for _ in range(DIRECTIONS):
         if not searched.any():
             break
@@ -96,7 +104,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     if searched.any():
         name = system.bearings[int(np.argmax(searched))].name
         raise EquilibriumError(f"{name}: no position found at which the force of the film points up")
-    short = ~(carried > 0.99 * loads)
+    short = ~affine & ~(carried > 0.99 * loads)
     if short.any():
         worst = int(np.argmax(short))
         raise EquilibriumError(
@@ -106,6 +114,16 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     positions = np.zeros((len(loads), 4))
     positions[:, 0] = share * clearances * np.sin(angle)
     positions[:, 1] = -share * clearances * np.cos(angle)
+    return np.where(affine[:, None], _affine_positions(system, loads), positions)
+
+
+def _affine_positions(system: System, loads: Array) -> Array:
+    """Positions at which affine bearings carry the loads, the least ones where stiffness leaves a choice."""
+    evaluate(system, np.zeros((len(loads), 4)))
+    missing = np.column_stack([np.zeros_like(loads), loads]) - system.responses[:, _FORCE]
+    stiffness = system.responses[:, _STIFFNESS].reshape(-1, 4, 4)[:, :2, :2]
+    positions = np.zeros((len(loads), 4))
+    positions[:, :2] = (np.linalg.pinv(stiffness) @ -missing[:, :, None])[:, :, 0]
     return positions
 
 
@@ -160,7 +178,8 @@ def carry(system: System, forces: Array, positions: Array) -> Array:
         Naming the worst bearing when the search does not converge.
     """
     positions = positions.copy()
-    scale = np.maximum(np.hypot(*forces.T), 1e-300)
+    size = np.hypot(*forces.T)
+    scale = np.maximum(size, max(NO_LOAD * size.max(), 1e-300))
     error = np.full(len(scale), np.inf)
     for _ in range(NEWTON_STEPS):
         evaluate(system, positions)
@@ -171,6 +190,8 @@ def carry(system: System, forces: Array, positions: Array) -> Array:
         if not np.all(np.isfinite(error)):
             break
         stiffness = system.responses[:, _STIFFNESS].reshape(-1, 4, 4)[:, :2, :2]
+        done = (error < TOLERANCE) & (np.linalg.det(stiffness) == 0.0)  # a seal, say, that only damps
+        stiffness = np.where(done[:, None, None], np.eye(2), stiffness)
         step = np.linalg.solve(stiffness, -missing[:, :, None])[:, :, 0]
         gap = system.responses[:, _GAP]
         reach = REACH * np.where(gap > 0.0, gap, np.hypot(positions[:, 0], positions[:, 1]) * 1e-2)

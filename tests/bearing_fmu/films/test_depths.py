@@ -107,7 +107,7 @@ def test_friction_power_of_the_tilted_film():
 
 
 def test_depth_names():
-    assert depths.names() == ("v1", "v2", "v3")
+    assert depths.films() == ("v1", "v2", "v3")
     with pytest.raises(ValueError, match=r"bearing depth 'v4': allowed are v1, v2, v3"):
         make_film("v4", TURBINE)
     with pytest.raises(ValueError, match="boundary = 'reynolds': the aligned film has guembel only"):

@@ -48,12 +48,12 @@ def make(values: Mapping[str, Value]) -> LinearFilm:
     return LinearFilm(float(values["film.scale"]), float(values["clearance"]), offset)
 
 
-LINEAR = depths.register(
+SPRING = depths.register(
     depths.Depth(
-        name="linear",
+        name="spring",
         title="spring and damper",
         text="Journal bearing: a linear spring and damper.",
-        film="tests.linear_film:make",
+        film="tests.spring_film:make",
         parameters=(
             *port.BEARING_PARAMETERS,
             Variable(
