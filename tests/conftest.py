@@ -29,8 +29,12 @@ for depth in depths.films():
 
 
 def pytest_configure(config):
-    """Compile the kernels before the workers start, which would each compile them."""
+    """Compile the kernels before the workers start, which would each compile them.
+
+    Nor does each of their processes compile the modules that it imports, whatever the environment says.
+    """
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         root = Path(__file__).parents[1]
         subprocess.run([sys.executable, "-c", _COMPILE], cwd=root, check=False)
 

@@ -14,6 +14,7 @@ normal load of the slice.  They are tabulated once for a bearing as cubic spline
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -77,6 +78,7 @@ class SliceTable(NamedTuple):
     coefficients: Floats
 
 
+@lru_cache(maxsize=64)  # bearings of a train are often alike, and each is made several times
 def slice_table(parameters: BearingParameters) -> SliceTable:
     """Tabulate the contact of one slice up to the deepest admissible overlap.
 

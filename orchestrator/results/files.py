@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestrator.errors import NotWrittenError
-from orchestrator.results.figures.write import write_figures
 from orchestrator.results.folder import FIGURES, PARTIAL, RUN_FILES, free_room, result_folder
 from orchestrator.results.record_files import write_record
 from orchestrator.results.summary_table import to_text
@@ -97,6 +96,8 @@ def add_figures(
     records: Sequence[xr.Dataset], folder: Path, train: Train, bearing: str | None, formats: Sequence[str]
 ) -> None:
     """Write the figures of one or several runs into the folder of their results."""
+    from orchestrator.results.figures.write import write_figures  # matplotlib loads for half a second
+
     with result_folder(folder / FIGURES) as fresh:
         write_figures(records, fresh, train=train, bearing=bearing, formats=formats)
 

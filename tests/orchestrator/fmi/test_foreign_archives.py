@@ -1,7 +1,6 @@
 """FMUs and SSPs of others: what could do harm is refused before anything of it is run, read or kept."""
 
 import os
-import resource
 import stat
 import warnings
 from pathlib import Path
@@ -15,6 +14,7 @@ from orchestrator.fmi.archive import ArchiveError, Limits, extract
 from orchestrator.fmi.file import FmuStore
 from tests.faults import fault
 from tests.orchestrator.foreign import refused, with_entry
+from tests.orchestrator.limits import largest_file
 
 
 def entry_fault(case, outcome, guard):
@@ -195,13 +195,8 @@ def test_all_fmus_of_a_run_share_one_limit(small_fmus, monkeypatch):
     guard="orchestrator.fmi.archive:extract",
 )
 def test_no_room_for_what_is_extracted(small_fmus, room):
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, hard))
-    try:
-        with pytest.raises(ArchiveError) as info:
-            extract(small_fmus / "bearing_v3.fmu", room / "x", "FMU")
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    with largest_file(20_000), pytest.raises(ArchiveError) as info:
+        extract(small_fmus / "bearing_v3.fmu", room / "x", "FMU")
     text = str(info.value)
     assert f"cannot be extracted to {room}: {os.strerror(27)}" in text and "TMPDIR" in text
     assert not list(room.iterdir())
