@@ -6,7 +6,8 @@ products fused, nothing else is relaxed.
 numba keeps compiled code next to the sources and renews it when the file of a function changes, but
 not when a function it calls changes in another file.  Here the whole package is the unit: any
 change of a module renews all its kernels, and those of other packages that draw on them; a kernel of
-another package is renewed by its own file, too.
+another package is renewed by its own file, too.  What is kept carries its digest: a file that is damaged,
+as after a power loss, counts as missing, and is written anew.
 """
 
 from __future__ import annotations
@@ -17,7 +18,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
-from numba import njit
+from numba import config, njit
+
+from bearing_fmu.kernels.kept import KeptFile
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {
@@ -92,12 +95,14 @@ def stage(function: _Function) -> _Function:
 
 
 def _compile(function: _Function, more: dict[str, Any]) -> _Function:
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]  # nothing is compiled, and nothing kept
+        return function
     try:
         dispatcher: Any = njit(**_OPTIONS, **more)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
     cache = dispatcher._cache
-    cache._cache_file._source_stamp = _stamp(function)
+    cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, _stamp(function))
     # numba's own key holds what a function draws on, which is another object in every process
     cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
     save = cache.save_overload

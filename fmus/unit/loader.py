@@ -8,6 +8,7 @@ pythonfmu runs, under a name of its own; it imports nothing of bladeloss.
 - A package installed in the host is taken if its sources are the same.
 - Otherwise the FMU's copy is put in the user's cache folder, once per version:
   compiled kernels stay with it, whereas each tool extracts an FMU to a new folder.
+  It is used only as long as it holds these files and no others.
   Where nothing can be written there, the copy in the resources serves.
 """
 
@@ -116,10 +117,28 @@ def _provide(package: str, digest: str, own: Path) -> None:
         or not host.submodule_search_locations
         or (_digest(Path(host.submodule_search_locations[0]), names) != digest)
     ):
-        sys.path.insert(0, str(_cached(package, digest, own, names)))
-        importlib.invalidate_caches()
-    module = importlib.import_module(package)
+        module = _import_from(_cached(package, digest, own, names), package)
+    else:
+        module = importlib.import_module(package)
     setattr(module, _CHECKED, {tuple(names): digest})
+
+
+def _import_from(folder: Path, package: str) -> Any:
+    """Import a package from a folder that does not get on `sys.path`: nothing else there counts."""
+    place = folder / package
+    spec = importlib.util.spec_from_file_location(
+        package, place / "__init__.py", submodule_search_locations=[str(place)]
+    )
+    if spec is None or spec.loader is None:
+        raise ImportError(f"the package {package} cannot be imported from {folder}")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[package] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[package]
+        raise
+    return module
 
 
 def _folder_of(package: str) -> Path:
@@ -155,18 +174,32 @@ def _cached(package: str, digest: str, own: Path, names: list[str]) -> Path:
     """Return a lasting folder that holds `package`, or `own` if there is none to be had."""
     try:
         target = cache_folder() / f"{package}-{digest}"
-        if not target.exists():
+        if not _holds(target, package, digest, names):
             target.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(dir=target.parent) as temporary:
                 whole = Path(temporary) / "whole"
                 shutil.copytree(own / package, whole / package)
+                with suppress(OSError):  # damaged, or of another; or there is none yet
+                    target.rename(Path(temporary) / "before")
                 with suppress(OSError):  # another process may have been first
                     whole.rename(target)
-        if _digest(target / package, names) == digest:
+        if _holds(target, package, digest, names):
             return target
     except (OSError, RuntimeError):  # no home, no space, no permission
         pass
     return own
+
+
+def _holds(folder: Path, package: str, digest: str, names: list[str]) -> bool:
+    """Tell whether a folder that is the user's own holds a package with these files and no others."""
+    place = folder / package
+    if not place.is_dir():
+        return False
+    about = folder.stat()
+    if hasattr(os, "getuid") and (about.st_uid != os.getuid() or about.st_mode & 0o002):
+        return False
+    found = sorted(p.relative_to(place).as_posix() for p in _sources(place))
+    return found == names and _digest(place, names) == digest
 
 
 def _refusing(reason: str) -> type[Fmi2Slave]:

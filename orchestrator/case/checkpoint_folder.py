@@ -5,11 +5,13 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from orchestrator.case.case import Case
 from orchestrator.case.request import RunRequest
-from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints
+from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints, problem_of
 
 SUFFIX = "-checkpoint"
 
@@ -28,7 +30,6 @@ def checkpoints(
     about: dict[str, Any] = {
         **case.about,
         "source": str(Path(request.source).absolute()) if request.is_ssp else request.source,
-        "fmus": str(request.fmus.absolute()),
         "bearing": request.bearing,
         "formats": list(request.formats),
         "every": request.checkpoint,
@@ -39,31 +40,57 @@ def checkpoints(
     return Checkpoints(checkpoint_folder(folder), request.checkpoint, about, warn)
 
 
-def request_of(saved: Checkpoint, folder: Path, *, trust: bool) -> RunRequest:
+class _About(BaseModel):
+    """What a checkpoint says that a command needs to go on."""
+
+    model_config = ConfigDict(strict=True, extra="forbid")
+
+    source: str
+    overrides: dict[str, Any] = {}
+    bearing: str | None
+    formats: list[Literal["png", "pdf", "svg"]]
+    every: float = Field(ge=1e-6, allow_inf_nan=False)
+    certify: bool
+    threads: int | None = Field(ge=1)
+    budget: float = Field(ge=0.0, allow_inf_nan=False)
+    trusted: dict[str, str] = {}
+    scenario: str | None = None
+    scenario_folder: str | None = None
+    ssp_sha256: str | None = None
+
+    @model_validator(mode="after")
+    def _of_one_kind(self) -> Self:
+        needed = (self.ssp_sha256,) if self.source.endswith(".ssp") else (self.scenario, self.scenario_folder)
+        if None in needed:
+            raise ValueError("scenario, or digest of the SSP, is missing")
+        return self
+
+
+def request_of(saved: Checkpoint, folder: Path, fmus: Path, *, trust: bool) -> RunRequest:
     """Return the request of a saved run whose results go to `folder`.
 
     Raises
     ------
     CheckpointError
-        When something is missing.
+        When something is missing, or is not what a run writes.
     """
-    about = saved.about
     try:
-        return RunRequest(
-            about["source"],
-            about.get("overrides", {}),
-            out=folder,
-            fmus=Path(about["fmus"]),
-            bearing=about["bearing"],
-            formats=tuple(about["formats"]),
-            checkpoint=about["every"],
-            certify=about["certify"],
-            threads=about["threads"],
-            trust=trust,
-            budget=about["budget"],
-        )
-    except KeyError as error:
-        raise CheckpointError(f"{saved.path}: {error} is missing") from None
+        about = _About.model_validate(saved.about)
+    except ValidationError as error:
+        raise CheckpointError(f"{saved.path}: not a checkpoint of a run: {problem_of(error)}") from None
+    return RunRequest(
+        about.source,
+        about.overrides,
+        out=folder,
+        fmus=fmus,
+        bearing=about.bearing,
+        formats=tuple(about.formats),
+        checkpoint=about.every,
+        certify=about.certify,
+        threads=about.threads,
+        trust=trust,
+        budget=about.budget,
+    )
 
 
 def discard(folder: Path) -> None:

@@ -15,6 +15,7 @@ from orchestrator.case.request import RunRequest
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import require_trust
+from orchestrator.fmi.voucher import vouch, vouched
 from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
 from orchestrator.results.folder import check_folder, check_room, check_writable
 from orchestrator.scenario.file import load_with_train, parse_with_train, scenario_toml
@@ -54,12 +55,13 @@ def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = No
         check_room(folder, record_size(case.scenario, case.train))
         if request.checkpoint is not None:
             check_writable(checkpoint_folder(folder))
-        known = saved.about.get("trusted", ()) if saved is not None else ()
+        known = vouched(saved.about.get("trusted", {})) if saved is not None else ()
         foreign = case.units.foreign(case.scenario)
         trusted = require_trust(foreign, trust=request.trust, known=known)
         if not request.is_ssp:
             ensure_fmus(request.fmus, case.train, needed_depths(case.scenario, case.train), console)
-        yield replace(case, about={**case.about, "trusted": trusted})
+        vouchers = vouch(trusted) if request.checkpoint is not None and trusted else {}
+        yield replace(case, about={**case.about, "trusted": vouchers})
 
 
 def result_folder_of(request: RunRequest, scenario: Scenario) -> Path:
@@ -80,10 +82,7 @@ def _scenario_case(request: RunRequest, saved: Checkpoint | None) -> Iterator[Ca
         if request.rotor not in (None, rotor_recipe(train).guid):
             raise OrchestratorError(f"train {scenario.train}: was edited meanwhile; start anew")
     else:
-        try:
-            text, place = saved.about["scenario"], Path(saved.about["scenario_folder"])
-        except KeyError as error:
-            raise CheckpointError(f"{saved.path}: {error} is missing") from None
+        text, place = saved.about["scenario"], Path(saved.about["scenario_folder"])
         scenario, train = parse_with_train(text, place, str(saved.path))
     about = {"scenario": scenario_toml(scenario), "scenario_folder": str(scenario.folder.absolute())}
     with folder_case(scenario, train, request.fmus, about) as case:

@@ -202,7 +202,9 @@ class _TimeLoop:
             observers,
             self._course,
             on_time=on_time,
-            resume=None if resume is None else lambda stepper: resume.restore_run(stepper, self._keepers),
+            resume=None
+            if resume is None
+            else lambda stepper: resume.restore_run(stepper, self._keepers, self._course),
         )
         spent = [
             (group.step_time - step, group.exchange_time - exchange)

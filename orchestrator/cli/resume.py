@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from orchestrator.cli.options import Trust, guarded
+from orchestrator.cli.options import Fmus, Trust, guarded
 
 
 def register(app: typer.Typer) -> None:
@@ -17,6 +17,7 @@ def register(app: typer.Typer) -> None:
 
 def resume(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="The --out of the run, or its checkpoint.")],
+    fmus: Fmus = None,
     trust: Trust = False,
 ) -> None:
     """Go on with a run that was killed, from its last checkpoint.
@@ -29,7 +30,8 @@ def resume(
         from rich.console import Console
 
         from orchestrator.commands.resume import resume as resume_run
+        from orchestrator.fmi.folder import fmu_folder
 
-        return resume_run(folder, Console(), Console(stderr=True), trust=trust)
+        return resume_run(folder, fmus or fmu_folder(), Console(), Console(stderr=True), trust=trust)
 
     guarded(work)

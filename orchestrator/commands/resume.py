@@ -12,13 +12,15 @@ from orchestrator.commands.run import run_case
 from orchestrator.observers import checkpoint
 
 
-def resume(folder: Path, console: Console, errors: Console, *, trust: bool = False) -> int:
+def resume(folder: Path, fmus: Path, console: Console, errors: Console, *, trust: bool = False) -> int:
     """Go on with a run to its end, write its results, say what came out.
 
     Parameters
     ----------
     folder : Path
         Folder of the run's results, or that of its checkpoint.
+    fmus : Path
+        Folder of the FMUs.
     console, errors : rich.console.Console
         For output and for what went wrong.
     trust : bool
@@ -36,7 +38,7 @@ def resume(folder: Path, console: Console, errors: Console, *, trust: bool = Fal
     """
     results = folder.with_name(folder.name.removesuffix(SUFFIX))
     saved = checkpoint.read(checkpoint_folder(results))
-    request = request_of(saved, results, trust=trust)
+    request = request_of(saved, results, fmus, trust=trust)
     with prepare(request, console, saved) as case:
         end = f"{case.scenario.end:.6g}"
         console.print(f"Going on from t = {saved.time:.6g} s of {end} s", highlight=False)

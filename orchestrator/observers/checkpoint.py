@@ -8,19 +8,23 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.master.stepping import StepCounts, Stepper
 from orchestrator.master.system import System
+from orchestrator.master.time_loop import Course
+from orchestrator.observers.checkpoint_meta import Meta, problem_of
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -70,7 +74,24 @@ class Checkpoint:
 
     def start(self) -> Start:
         """The start of the run."""
-        return Start(**{field.name: self.arrays[f"start.{field.name}"] for field in fields(Start)})
+        with self._fitting():
+            start = Start(**{field.name: self.arrays[f"start.{field.name}"] for field in fields(Start)})
+            bearings, nodes = len(self.meta["fmus"]) - 1, len(start.static_line)
+            for name, value in vars(start).items():
+                rows = nodes if name == "static_line" else bearings
+                columns = 2 if name in ("static_line", "loads") else 4
+                if value.shape != (rows, columns) or value.dtype != np.float64:
+                    raise ValueError(f"start.{name} is {value.dtype} of shape {value.shape}")
+            return start
+
+    @contextmanager
+    def _fitting(self) -> Iterator[None]:
+        """Say in a line that something is missing, or of another shape than this run's."""
+        try:
+            yield
+        except (LookupError, ValueError, TypeError, AttributeError, ArithmeticError) as error:
+            text = f"{type(error).__name__}: {error}"
+            raise CheckpointError(f"{self.path}: does not belong to this run: {text}") from None
 
     def restore_units(self, system: System) -> None:
         """Put the units of a freshly assembled system where they were.
@@ -80,6 +101,12 @@ class Checkpoint:
         CheckpointError
             When an FMU is not the one of the checkpoint.
         """
+        with self._fitting():
+            self._restore_units(system)
+
+    def _restore_units(self, system: System) -> None:
+        if len(self.meta["fmus"]) != len(system.units):
+            raise ValueError(f"{len(self.meta['fmus'])} units, not {len(system.units)}")
         for index, unit in enumerate(system.units):
             saved, found = self.meta["fmus"][index], str(unit.file.description.guid)
             if saved != found:
@@ -92,14 +119,20 @@ class Checkpoint:
         system.graph.inputs[:] = self.arrays["inputs"]
         system.graph.outputs[:] = self.arrays["outputs"]
 
-    def restore_run(self, stepper: Stepper, keepers: Mapping[str, Keeper]) -> int:
+    def restore_run(self, stepper: Stepper, keepers: Mapping[str, Keeper], course: Course) -> int:
         """Put step control and what watches the run where they were; return the number of the macro step."""
-        stepper.level = int(self.meta["level"])
-        stepper.counts = StepCounts(**self.meta["counts"])
-        stepper.scheme.memory = _without_prefix("scheme.", self.arrays)
-        for name, keeper in keepers.items():
-            keeper.restore(_without_prefix(f"{name}.", self.arrays))
-        return int(self.meta["step"])
+        with self._fitting():
+            reached = min(self.meta["step"] * course.step, course.end)
+            if self.meta["step"] > course.steps or abs(self.time - reached) > 1e-6 * course.step:
+                raise ValueError(
+                    f"step {self.meta['step']} at {self.time} s of {course.steps} to {course.end} s"
+                )
+            stepper.level = int(self.meta["level"])
+            stepper.counts = StepCounts(**self.meta["counts"])
+            stepper.scheme.memory = _without_prefix("scheme.", self.arrays)
+            for name, keeper in keepers.items():
+                keeper.restore(_without_prefix(f"{name}.", self.arrays))
+            return int(self.meta["step"])
 
 
 @dataclass
@@ -240,9 +273,14 @@ def read(folder: Path) -> Checkpoint:
         meta = json.loads(arrays.pop("meta").tobytes())
         version = meta["version"]
     except Exception as error:  # zipfile, numpy and json have their own each
-        raise CheckpointError(f"{path}: not a readable checkpoint: {error}") from None
+        reason = " ".join(str(error).split())
+        raise CheckpointError(f"{path}: not a readable checkpoint: {reason}") from None
     if version != _VERSION:
-        raise CheckpointError(f"{path}: of version {version}; this program reads version {_VERSION}")
+        raise CheckpointError(f"{path}: of version {version!r}; this program reads version {_VERSION}")
+    try:
+        Meta.model_validate(meta)
+    except ValidationError as error:
+        raise CheckpointError(f"{path}: not a checkpoint of a run: {problem_of(error)}") from None
     return Checkpoint(path, meta["about"], meta, arrays)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from fmus.build.builder import write
+from tests.faults import fault
 from tests.fmus.conftest import spring_recipe
 
 REPOSITORY = Path(__file__).parents[2]
@@ -80,12 +81,41 @@ def test_without_a_cache_folder_the_resources_serve(run, spring_fmu, tmp_path, m
     assert places["fmus"] == tmp_path / "extracted" / spring_fmu.stem / "resources" / "packages" / "fmus"
 
 
-def test_a_damaged_cache_folder_is_passed_over(run, spring_fmu, tmp_path):
+@pytest.mark.parametrize("how", ["damaged", "a file added", "open to all"])
+@fault(
+    "archive",
+    "the copy of a unit's packages in the cache, changed, added to, or open to others",
+    "it is not run; a fresh copy takes its place",
+    guard="fmus.unit.loader:_holds",
+)
+def test_a_cache_folder_that_is_not_as_it_was_left(run, spring_fmu, how):
     _, places = run(spring_fmu)
-    assert (tmp_path / "cache") in places["spring_unit"].parents
-    (places["spring_unit"] / "facade.py").write_text("damaged")
+    kept = places["spring_unit"]
+    if how == "damaged":
+        (kept / "facade.py").write_text("damaged")
+    elif how == "a file added":
+        (kept / "__init__.cpython-311.so").write_text("code of somebody else")
+    else:
+        kept.parent.chmod(0o777)
     (found,), places = run(spring_fmu, folder="elsewhere")
-    assert found["step"] and "elsewhere" in str(places["spring_unit"])
+    assert found["step"] and places["spring_unit"] == kept
+    assert "damaged" not in (kept / "facade.py").read_text() and not list(kept.glob("*.so"))
+    assert not kept.parent.stat().st_mode & 0o002
+
+
+@fault(
+    "archive",
+    "a module of a common name beside a package in the cache folder",
+    "it is never found: the folder is not on `sys.path`",
+    guard="fmus.unit.loader:_import_from",
+)
+def test_nothing_else_is_imported_from_the_cache(run, spring_fmu):
+    _, places = run(spring_fmu)
+    for name in ("numpy.py", "json.py", "fmpy.py"):
+        (places["fmus"].parent / name).write_text("raise SystemExit('shadowed')")
+        (places["spring_unit"].parent / name).write_text("raise SystemExit('shadowed')")
+    (found,), again = run(spring_fmu, folder="elsewhere")
+    assert found["step"] and again == places
 
 
 def test_a_host_with_the_same_sources_uses_its_own(run, spring_fmu):

@@ -1,8 +1,10 @@
 """Kernels where compiled code cannot be kept: they are compiled in every process, and work."""
 
 import os
+import shutil
 import subprocess
 import sys
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import pytest
@@ -69,6 +71,64 @@ def test_no_room_to_keep_compiled_code(folder):
     assert not list(folder.rglob("*.nbc"))
     done = compute(folder)
     assert done.stdout == "3.0\n" and list(folder.rglob("*.nbc"))
+
+
+@pytest.mark.parametrize("ending", ["*.nbi", "*.nbc"])
+@pytest.mark.parametrize("damage", ["empty", "zeros", "cut short", "a bit flipped"])
+@fault(
+    "machine",
+    "a compiled kernel on disk that is damaged, as after a power loss",
+    "it is compiled and kept anew; no error, no wrong number",
+    guard="bearing_fmu.kernels.kept:_read",
+)
+def test_a_damaged_kernel_is_compiled_anew(folder, kept, ending, damage):
+    shutil.copytree(kept, folder / "__pycache__")
+    (path,) = folder.rglob(ending)
+    whole = path.read_bytes()
+    flipped = bytearray(whole)
+    flipped[len(whole) // 2] ^= 1
+    damaged = {"empty": b"", "zeros": bytes(len(whole)), "cut short": whole[: len(whole) // 2]}
+    path.write_bytes(damaged.get(damage, flipped))
+    kernels = compiled_here(folder)
+    assert kernels.twice(1.5) == 3.0 and kernels.twice.stats.cache_misses
+    again = compiled_here(folder)
+    assert again.twice(1.5) == 3.0 and again.twice.stats.cache_hits
+
+
+def compiled_here(folder):
+    """The module in the folder, imported anew into this process."""
+    spec = spec_from_file_location("kernels", folder / "kernels.py")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    """What is kept of a kernel."""
+    folder = tmp_path_factory.mktemp("kept")
+    (folder / "kernels.py").write_text(MODULE)
+    assert compiled_here(folder).twice(1.5) == 3.0
+    return folder / "__pycache__"
+
+
+def test_processes_that_keep_kernels_at_once_do_not_mix_them(folder):
+    """Unlike signatures of one function, whose files numba numbers: each index entry has its own code."""
+    code = "import sys; from kernels import twice; print(twice(complex(3) if sys.argv[1] == 'c' else 1.5))"
+    given = {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
+    given.pop("NUMBA_CACHE_DIR", None)
+    for _ in range(2):  # cold, then from what was kept
+        started = [
+            subprocess.Popen([sys.executable, "-c", code, kind], env=given, stdout=subprocess.PIPE, text=True)
+            for kind in ("c", "f")
+        ]
+        said = [process.communicate()[0].strip() for process in started]
+        assert said == ["(6+0j)", "3.0"]
+
+
+def test_numba_switched_off(folder):
+    assert compute(folder, NUMBA_DISABLE_JIT="1").stdout == "3.0\n"
+    assert not list(folder.rglob("*.nbc"))
 
 
 def test_a_kernel_of_another_package_is_renewed_with_its_file(folder):

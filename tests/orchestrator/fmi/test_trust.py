@@ -14,6 +14,7 @@ from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.fmi import trust
 from orchestrator.fmi.own import is_own
 from orchestrator.fmi.trust import UntrustedError, require_trust
+from orchestrator.fmi.voucher import vouch, vouched
 from orchestrator.observers import checkpoint
 from orchestrator.outcome import INPUT_ERROR
 from orchestrator.results.record_files import read_record
@@ -233,17 +234,41 @@ def test_the_question_on_a_terminal(spring, monkeypatch):
 
 @fault(
     "archive",
+    "a checkpoint of somebody else that says which FMUs are trusted",
+    "it does not vouch for itself: exit 2, file, `native code`, `--trust`",
+    guard="orchestrator.fmi.voucher:vouched",
+)
+def test_a_voucher_is_worth_something_to_its_user_only(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "mine"))
+    vouchers = vouch(["a", "b"])
+    assert vouched(vouchers | {"c": vouchers["a"]}) == {"a", "b"}
+    assert (tmp_path / "mine" / "bladeloss" / "voucher-key").stat().st_mode & 0o777 == 0o600
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "other"))
+    assert vouched(vouchers) == set()
+    vouch(["a"])
+    assert vouched(vouchers) == set()
+    monkeypatch.setenv("XDG_STATE_HOME", "/proc/none")
+    assert vouch(["a"]) == {} and vouched(vouchers) == set()
+
+
+@fault(
+    "archive",
     "an FMU that is exchanged between a trusted run and its resumption",
     "exit 2; file, `native code`, `--trust`; unchanged, it runs without a question",
     guard="orchestrator.fmi.trust:require_trust",
 )
 def test_a_resumed_run_knows_what_was_trusted(spring, short, small_fmus, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     mine, out = tmp_path / "mine.fmu", tmp_path / "o"
     shutil.copy(spring, mine)
     options = ("--no-figures", "--fmus", small_fmus, "--out", out, "--checkpoint", 0.001, "--trust")
     monkeypatch.setattr("orchestrator.commands.run.discard", lambda _: None)  # as if it had been killed
     assert call("run", short, "--depth-at", f"rear={mine}", *options).exit_code == 0
     assert len(checkpoint.read(checkpoint_folder(out)).about["trusted"]) == 1
+    assert call("resume", out).exit_code == 0
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "somebody-else"))
+    untrusted(call("resume", out), str(mine))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     assert call("resume", out).exit_code == 0
     shutil.copy(with_entry(spring, tmp_path / "other.fmu", "resources/x"), mine)
     untrusted(call("resume", out), str(mine))
