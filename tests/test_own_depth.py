@@ -91,7 +91,8 @@ def test_it_is_built_and_run(tmp_path):
     from zipfile import ZipFile
 
     in_a_process(RUN, "fmus", folder=tmp_path)
-    with ZipFile(tmp_path / "fmus" / "bearing_spring.fmu") as archive:
+    (built,) = (tmp_path / "fmus").glob("bearing_spring-*.fmu")
+    with ZipFile(built) as archive:
         assert "resources/packages/tests/spring_film.py" in archive.namelist()
         description = archive.read("modelDescription.xml").decode()
     assert 'name="film.scale"' in description and "a linear spring and damper" in description

@@ -11,7 +11,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from orchestrator.case.case import Case
 from orchestrator.case.request import RunRequest
-from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints, problem_of
+from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints
+from orchestrator.observers.checkpoint_meta import problem_of
 
 SUFFIX = "-checkpoint"
 

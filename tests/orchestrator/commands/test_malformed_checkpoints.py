@@ -4,8 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from rich.console import Console
 
-from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.checkpoint_folder import checkpoint_folder, request_of
+from orchestrator.case.prepare import prepare
+from orchestrator.errors import OrchestratorError
 from orchestrator.observers import checkpoint
 from orchestrator.outcome import INPUT_ERROR
 from tests.faults import fault
@@ -89,18 +92,14 @@ def test_a_field_that_is_missing_or_wrong(field, saved, small_fmus, tmp_path):
             assert str(path) in str(error) and "\n" not in str(error)
             continue
         if field.startswith("about."):
-            _about_is_refused(read, key, value, tmp_path)
+            _about_is_refused(read, key, value, tmp_path, small_fmus)
         else:  # found out only by the run's own size
             refused(resumed(saved, tmp_path, meta, saved.arrays, small_fmus), path)
 
 
-def _about_is_refused(read, key, value, folder):
-    from orchestrator.case.checkpoint_folder import request_of
-    from orchestrator.case.prepare import prepare
-    from orchestrator.errors import OrchestratorError
-
+def _about_is_refused(read, key, value, folder, fmus):
     try:
-        with prepare(request_of(read, folder / "out", folder, trust=False), None, read):
+        with prepare(request_of(read, folder / "out", fmus, trust=False), Console(quiet=True), read):
             assert value in ALLOWED.get(key, ()), (key, value)
     except OrchestratorError as error:
         assert str(read.path) in str(error) or str(value) in str(error), error
