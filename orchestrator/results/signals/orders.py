@@ -1,0 +1,99 @@
+"""What turns with the shaft: complex amplitudes of orders of the speed, whirl, probes, peak to peak."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+NAMED = {0.5: "½X", 1.0: "1X", 2.0: "2X", 3.0: "3X"}
+"""Orders that figures name: whirl and whip of a film and every rub in two turns, unbalance, bow and misfit."""
+
+
+def order_amplitudes(time: ArrayLike, values: ArrayLike, speed: float, orders: Sequence[float]) -> Complex:
+    """Complex amplitudes ``A`` of ``x = mean + Re sum A_k exp(i k speed t)``, by least squares.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        In s; samples may be uneven.
+    values : array_like, shape (n, ...)
+        Signals.
+    speed : float
+        In rad/s.
+    orders : sequence of float
+        Above 0.
+
+    Returns
+    -------
+    ndarray, shape (len(orders), ...)
+        Phases count from t = 0: a lag is negative.
+    """
+    t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    turn = np.exp(1j * speed * np.outer(t, orders))
+    columns = np.hstack([np.ones((t.size, 1)), turn.real, -turn.imag])
+    found = np.linalg.lstsq(columns, x.reshape(t.size, -1), rcond=None)[0]
+    real, imaginary = found[1 : len(orders) + 1], found[len(orders) + 1 :]
+    return np.asarray((real + 1j * imaginary).reshape(len(orders), *x.shape[1:]))
+
+
+@dataclass(frozen=True)
+class Whirl:
+    """An elliptic orbit ``x + i y = forward exp(i w t) + backward exp(-i w t)``.
+
+    Attributes
+    ----------
+    forward, backward : complex
+        Circles with and against the rotation.
+    """
+
+    forward: complex
+    backward: complex
+
+    @property
+    def major(self) -> float:
+        """Larger half axis."""
+        return abs(self.forward) + abs(self.backward)
+
+    @property
+    def minor(self) -> float:
+        """Smaller half axis, negative where the orbit runs against the rotation."""
+        return abs(self.forward) - abs(self.backward)
+
+    @property
+    def inclination(self) -> float:
+        """Angle of the larger half axis from x towards y in rad, -pi/2 to pi/2."""
+        angle = 0.5 * float(np.angle(self.forward) + np.angle(self.backward))
+        return float((angle + np.pi / 2) % np.pi - np.pi / 2)
+
+
+def whirl_of(x: complex, y: complex) -> Whirl:
+    """The orbit of complex amplitudes in x and y."""
+    return Whirl((x + 1j * y) / 2.0, (np.conj(x) + 1j * np.conj(y)) / 2.0)
+
+
+def probe_signals(x: ArrayLike, y: ArrayLike, angles: Sequence[float]) -> Floats:
+    """What probes at angles from x towards y [rad] read, shape (probes, n): ``x cos a + y sin a``."""
+    a = np.asarray(angles, dtype=float)[:, None]
+    return np.asarray(np.cos(a) * np.asarray(x, dtype=float) + np.sin(a) * np.asarray(y, dtype=float))
+
+
+def from_probes(signals: ArrayLike, angles: Sequence[float]) -> Floats:
+    """Motion in x and y, shape (2, n), from probes at two or more angles, by least squares."""
+    a = np.asarray(angles, dtype=float)
+    directions = np.column_stack([np.cos(a), np.sin(a)])
+    return np.asarray(np.linalg.lstsq(directions, np.asarray(signals, dtype=float), rcond=None)[0])
+
+
+def running_peak_to_peak(values: ArrayLike, samples: int) -> Floats:
+    """Peak to peak over the `samples` around each instant, shape as `values`, along the last axis."""
+    x = np.asarray(values, dtype=float)
+    size = max(1, min(samples, x.shape[-1]))
+    options = {"size": size, "axis": -1, "mode": "nearest"}
+    return np.asarray(maximum_filter1d(x, **options) - minimum_filter1d(x, **options))
