@@ -1,4 +1,4 @@
-"""The record of a run: a labelled, self-describing dataset.
+"""The record of a run: a labelled, self-describing dataset after the CF conventions.
 
 Dimensions are time, bearing (by name), axis (x, y), coordinate (x, y, tilt_x, tilt_y) and
 node (with its axial position z).  Every variable carries its unit and a long name.
@@ -19,6 +19,7 @@ from fmus import port
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
 from orchestrator.outcome import Outcome
+from orchestrator.results.geometry import train_coordinates, train_variables
 from orchestrator.scenario.events import BladeLoss
 from orchestrator.scenario.file import scenario_toml
 from orchestrator.scenario.scenario import Scenario
@@ -88,7 +89,9 @@ def make_record(
     variables: dict[str, Variable] = {
         **_bearing_variables(recorder),
         **_shaft_variables(recorder),
-        "offset": (("bearing", "coordinate"), start.offsets, _words("m, rad", "bearing centre and axis")),
+        **train_variables(scenario, train),
+        "offset": (("bearing", "axis"), start.offsets[:, :2], _words("m", "bearing centre")),
+        "offset_tilt": (("bearing", "axis"), start.offsets[:, 2:], _words("rad", "tilts of the bearing's axis")),
         "static_force": (("bearing", "axis"), start.loads, _words("N", "static bearing force on the shaft")),
         "static_line": (("node", "axis"), start.static_line, _words("m", "static line of the shaft")),
     }
@@ -152,24 +155,11 @@ def _shaft_variables(recorder: Recorder) -> dict[str, Variable]:
     return result
 
 
-def train_coordinates(scenario: Scenario, train: Train) -> dict[str, Any]:
-    """Coordinates of the record that do not depend on time."""
-    names = [seat.name for seat in train.bearings]
-    seats = [train.z[seat.node] for seat in train.bearings]
-    return {
-        "bearing": ("bearing", names),
-        "axis": ("axis", ["x", "y"]),
-        "coordinate": ("coordinate", list(port.POSITION)),
-        "depth": ("bearing", [scenario.depth_name_of(name) for name in names]),
-        "bearing_z": ("bearing", seats, _words("m", "axial position of the bearing")),
-        "z": ("node", list(train.z), _words("m", "axial position of the node")),
-    }
-
-
 def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message: str) -> dict[str, Any]:
     """Attributes of the record: what was run, how, with which programs, and how it ended."""
     schedule = schedule_of(scenario, train)
     attributes: dict[str, Any] = {
+        "Conventions": "CF-1.11",
         "title": scenario.title,
         "train": train.name,
         **schedule.attributes(),

@@ -46,7 +46,11 @@ def netcdf(data: xr.Dataset) -> bytes:
     It is made in memory, because HDF5 writing to a disk that is full ends the process.
     """
     numeric = [name for name, variable in data.variables.items() if variable.dtype.kind == "f"]
-    encoding = {name: {"zlib": True, "complevel": 1} for name in numeric}
+    encoding = {
+        # CF allows no missing values in a coordinate, and nothing has a value that stands for one
+        name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data[name].ndim else {})
+        for name in numeric
+    }
     content = BytesIO()
     with h5netcdf.File(content, "w") as file:
         data.dump_to_store(H5NetCDFStore(file), encoding=encoding)

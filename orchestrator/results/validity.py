@@ -50,7 +50,7 @@ def _state(at: xr.Dataset) -> str:
     """Say when, and where the journal was then, as far as the record knows."""
     if "time" not in at or "eccentricity" not in at:
         return ""
-    tilt = 1e6 * (at["tilt"].values - at["offset"].values[2:])
+    tilt = 1e6 * (at["tilt"].values - at["offset_tilt"].values)
     return (
         f", worst at t = {float(at['time']):.6g} s (eccentricity ratio {float(at['eccentricity']):.4g}, "
         f"tilts {tilt[0]:.4g} and {tilt[1]:.4g} urad, least gap {1e6 * float(at['least_gap']):.4g} um)"

@@ -44,7 +44,7 @@ def test_the_worst_instant_is_given_with_the_state_of_the_journal():
         eccentricity=(dims, np.full((3, 2), 0.75)),
         least_gap=(dims, np.full((3, 2), 2.5e-5)),
         tilt=((*dims, "axis"), np.full((3, 2, 2), 3e-5)),
-        offset=(("bearing", "coordinate"), np.tile([0.0, 0.0, 1e-5, -1e-5], (2, 1))),
+        offset_tilt=(("bearing", "axis"), np.tile([1e-5, -1e-5], (2, 1))),
     )
     state = "b1, worst at t = 0.5 s (eccentricity ratio 0.75, tilts 20 and 40 urad, least gap 25 um)"
     assert state in unresolved(record)

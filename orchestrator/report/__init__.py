@@ -1,0 +1,1 @@
+"""The report: one page that says what was run, how far to trust it, and what follows."""

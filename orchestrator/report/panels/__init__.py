@@ -1,0 +1,1 @@
+"""The interactive figures of the report: each file makes panels of results."""

@@ -1,0 +1,109 @@
+"""Orbits of the journals in their clearances."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.report.encode import packed
+from orchestrator.report.panels.panel import CALM, CONTACT, INK, Panel, Trace, axis, layout
+from orchestrator.report.source import Result
+from orchestrator.results.windows import Window
+
+MICRO = 1e6
+BEFORE, FIRST, LAST = 2.0, 10.0, 5.0
+"""Revolutions shown before the event, behind it, and at the end of the run."""
+SAMPLES, MARKS = 1600, 150
+"""Most samples of a line, and most marks of contact."""
+_EARLY, _LATE = "#9CC3E6", "#0B4F8A"
+
+
+def orbits(results: Sequence[Result]) -> Iterator[Panel]:
+    """A panel for each bearing and result; of one bearing all have the same axes."""
+    names = dict.fromkeys(name for result in results for name in result.bearings)
+    for bearing in names:
+        having = [result for result in results if bearing in result.bearings]
+        reach = max(_reach(result, bearing) for result in having)
+        for result in having:
+            title = bearing if len(results) == 1 else f"{bearing}, {result.name}"
+            span = {"range": [-reach, reach], "constrain": "domain", "dtick": _tick(reach)}
+            shown = layout(
+                xaxis=axis("x [µm]", **span),
+                yaxis=axis("y [µm]", scaleanchor="x", **span),
+                showlegend=False,
+                margin={"l": 50, "r": 6, "t": 6, "b": 40},
+            )
+            yield Panel("orbits", title, _traces(result, bearing), shown, height=290)
+
+
+def _reach(result: Result, bearing: str) -> float:
+    clearance = float(result.of_bearing("bearing_clearance", bearing))
+    return 1.08 * MICRO * max(clearance, float(np.abs(result.journal(bearing)).max()))
+
+
+def _tick(reach: float) -> float:
+    """A tick such that some five are on the axis."""
+    power = 10.0 ** np.floor(np.log10(reach))
+    return float(power * next(step for step in (0.2, 0.5, 1.0, 2.0, 5.0) if reach / (step * power) <= 2.8))
+
+
+def _spans(result: Result) -> list[tuple[str, Window, str, float]]:
+    """What is shown: name, window, colour, width."""
+    turn = 2.0 * np.pi / abs(result.speed)
+    first, *later = result.phases
+    end = first.span.end
+    if not later:
+        name = "lasting" if first.name == "steady" else "after"
+        return [(name, Window(max(first.span.start, end - FIRST * turn), end), _LATE, 1.4)]
+    start, last = later[0].span.start, later[-1].span.end
+    return [
+        ("behind the event", Window(start, min(last, start + FIRST * turn)), _EARLY, 1.0),
+        ("end of the run", Window(max(start, last - LAST * turn), last), _LATE, 1.4),
+        ("before", Window(max(first.span.start, end - BEFORE * turn), end), "#111111", 2.0),
+    ]
+
+
+def _traces(result: Result, bearing: str) -> list[Trace]:
+    journal = result.journal(bearing) * MICRO
+    clearance = float(result.of_bearing("bearing_clearance", bearing)) * MICRO
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    circle = {
+        "type": "scatter", "mode": "lines", "line": {"color": INK, "width": 1.6}, "hoverinfo": "skip",
+        "x": packed(clearance * np.cos(angle), 0.1), "y": packed(clearance * np.sin(angle), 0.1),
+        "fill": "toself", "fillcolor": "#F6F3EA", "name": "clearance",
+    }  # fmt: skip
+    traces: list[Trace] = [circle]
+    for name, window, colour, width in _spans(result):
+        chosen = np.flatnonzero(window.mask(result.time))
+        chosen = chosen[:: max(1, -(-chosen.size // SAMPLES))]
+        look = {"line": {"color": colour, "width": width}, "mode": "lines", "name": name}
+        traces.append({"type": "scatter", **look, **_points(journal[:, chosen])})
+    touching = np.flatnonzero(result.touching(bearing))
+    if touching.size:
+        force = result.of("contact_force", bearing)[touching]
+        chosen = np.sort(touching[np.argsort(force)[-MARKS:]])
+        look = {"mode": "markers", "marker": {"color": CONTACT, "size": 4}, "name": "solid contact"}
+        traces.append({"type": "scatter", **look, **_points(journal[:, chosen])})
+    worst = int(np.argmin(result.of("least_gap", bearing)))
+    text = f"least gap {result.of('least_gap', bearing)[worst] * MICRO:.1f} µm at {result.time[worst]:.4f} s"
+    star = {"symbol": "star", "size": 11, "color": "#F2B705", "line": {"color": INK, "width": 1}}
+    marked = {"mode": "markers", "marker": star, "name": text}
+    traces.append({"type": "scatter", **marked, **_points(journal[:, [worst]])})
+    return traces
+
+
+def _points(places: NDArray[np.float64]) -> Trace:
+    return {"x": packed(places[0], 0.02), "y": packed(places[1], 0.02)}
+
+
+LEGEND = (
+    ("#111111", f"last {BEFORE:g} revolutions before the event"),
+    (_EARLY, f"first {FIRST:g} behind it"),
+    (_LATE, f"last {LAST:g} of the run"),
+    (CONTACT, "solid contact"),
+    ("#F2B705", "least gap of the run (star)"),
+    (CALM, "circle: radial clearance, within which the journal's centre can move without tilt"),
+)
+"""Colours and what they stand for."""

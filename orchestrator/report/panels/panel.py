@@ -1,0 +1,98 @@
+"""A panel: one interactive figure, and what its axes have in common with the others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from orchestrator.report.source import Result
+from orchestrator.scenario.schedule import from_attributes
+
+INK, GRID, EVENT, CONTACT, CALM = "#222222", "#E3E6EA", "#6B7280", "#C8102E", "#8A9099"
+Trace = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One interactive figure.
+
+    Attributes
+    ----------
+    section : str
+        Where it stands on the page.
+    title : str
+        Above it.
+    traces, layout : list, dict
+        As the plotting library takes them; arrays may be `orchestrator.report.encode.packed`.
+    bearing : str
+        Shown only while this bearing is chosen; empty for always.
+    height : int
+        In pixels.
+    moving : dict
+        What a slider below it moves, see ``page.js``.
+    """
+
+    section: str
+    title: str
+    traces: list[Trace]
+    layout: dict[str, Any]
+    bearing: str = ""
+    height: int = 320
+    moving: dict[str, Any] = field(default_factory=dict)
+
+    def data(self) -> dict[str, Any]:
+        """For the page's script."""
+        found: dict[str, Any] = {"data": self.traces, "layout": self.layout}
+        return found | ({"moving": self.moving} if self.moving else {})
+
+
+def axis(title: str, **more: Any) -> dict[str, Any]:
+    """An axis in the style of the page."""
+    look = {"gridcolor": GRID, "zeroline": False, "linecolor": INK, "ticks": "outside", "automargin": True}
+    return {"title": {"text": title, "standoff": 6}, **look, **more}
+
+
+def layout(**more: Any) -> dict[str, Any]:
+    """A layout in the style of the page."""
+    return {
+        "margin": {"l": 62, "r": 14, "t": 12, "b": 44},
+        "font": {"family": "system-ui, sans-serif", "size": 12, "color": INK},
+        "paper_bgcolor": "white",
+        "plot_bgcolor": "white",
+        "hovermode": "closest",
+        "legend": {"orientation": "h", "yanchor": "bottom", "y": 1.0, "x": 0.0},
+        **more,
+    }
+
+
+def rows(count: int, gap: float = 0.06) -> list[tuple[float, float]]:
+    """Vertical spans of stacked plots, the first on top."""
+    height = (1.0 - gap * (count - 1)) / count
+    return [(1.0 - k * (height + gap) - height, 1.0 - k * (height + gap)) for k in range(count)]
+
+
+def event_lines(results: Sequence[Result]) -> dict[str, Any]:
+    """Shapes and a note at each instant at which something happens."""
+    found = {
+        event.time: event.text for result in results for event in from_attributes(result.record.attrs).events
+    }
+    line = {"color": EVENT, "width": 1, "dash": "dash"}
+    shapes = [
+        {"type": "line", "x0": time, "x1": time, "y0": 0, "y1": 1, "yref": "paper", "line": line}
+        for time in found
+    ]
+    notes = [
+        {
+            "x": time, "y": 1, "yref": "paper", "text": text, "showarrow": False, "xanchor": "right",
+            "yanchor": "top", "xshift": -4, "font": {"size": 11, "color": EVENT},
+        }
+        for time, text in found.items()
+    ]  # fmt: skip
+    return {"shapes": shapes, "annotations": notes}
+
+
+def line(result: Result, name: str, **more: Any) -> Trace:
+    """The beginning of a line of a result."""
+    look = {"color": result.colour, "width": 1.3, "dash": result.dash}
+    return {"type": "scatter", "mode": "lines", "name": name, "line": look | more.pop("line", {}), **more}

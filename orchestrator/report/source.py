@@ -1,0 +1,191 @@
+"""What a report is made of: results of runs, read back from their folders."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from orchestrator.errors import OrchestratorError
+from orchestrator.results.figures import style
+from orchestrator.results.record_files import RECORD_FILE, read_record
+from orchestrator.results.statistics import analysed_bearing, contact_threshold
+from orchestrator.results.verdicts.judge import judge, own_limits, worst
+from orchestrator.results.verdicts.limits import Limits
+from orchestrator.results.verdicts.verdict import Verdict
+from orchestrator.results.windows import Phase, phases
+
+SUMMARY_FILE = "summary.json"
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+_DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+
+
+class ReportError(OrchestratorError):
+    """Results that no report can be made of."""
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One run in a report.
+
+    Attributes
+    ----------
+    name : str
+        What tells it from the others.
+    record : xarray.Dataset
+        Its record.
+    summary : dict
+        Of ``summary.json``; empty where there is none.
+    verdicts : tuple of Verdict
+        Held against its limits.
+    colour, dash : str
+        Of its lines.
+    """
+
+    name: str
+    record: xr.Dataset
+    summary: dict[str, Any] = field(default_factory=dict)
+    verdicts: tuple[Verdict, ...] = ()
+    colour: str = _COLOURS[0]
+    dash: str = _DASHES[0]
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Instants of the record in s."""
+        return np.asarray(self.record["time"].values, dtype=float)
+
+    @property
+    def speed(self) -> float:
+        """Speed of rotation in rad/s."""
+        return float(self.record.attrs["speed"])
+
+    @property
+    def bearings(self) -> tuple[str, ...]:
+        """Names of the bearings from front to rear."""
+        return tuple(str(name) for name in self.record["bearing"].values)
+
+    @property
+    def phases(self) -> tuple[Phase, ...]:
+        """Phases of the run."""
+        return phases(self.record)
+
+    def of(self, name: str, bearing: str) -> NDArray[np.float64]:
+        """A series of a bearing; a vector with its axes first."""
+        values = self.record[name].sel(bearing=bearing)
+        return np.asarray(values.transpose(*(d for d in values.dims if d != "time"), "time").values, dtype=float)
+
+    def journal(self, bearing: str) -> NDArray[np.float64]:
+        """Journal from the centre of its bearing, shape (2, time), in m."""
+        return self.of("displacement", bearing) - self.of_bearing("offset", bearing)[:, None]
+
+    def of_bearing(self, name: str, bearing: str) -> NDArray[np.float64]:
+        """What does not depend on time, at a bearing."""
+        return np.asarray(self.record[name].sel(bearing=bearing).values, dtype=float)
+
+    def touching(self, bearing: str) -> NDArray[np.bool_]:
+        """When surfaces touch."""
+        threshold = contact_threshold(self.record, bearing, self.phases)
+        return self.of("contact_force", bearing) > threshold
+
+
+def load_results(paths: Sequence[Path], limits: Limits | None = None) -> tuple[Result, ...]:
+    """Read the results of runs.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Folders of results, or files ``record.nc``.
+    limits : Limits, optional
+        In place of those in the records.
+
+    Raises
+    ------
+    ReportError
+        A path without a record, or a record that holds no motion; names what is allowed.
+    """
+    pairs = [(path, _read(path)) for path in paths]
+    return results_of([record for _, record in pairs], [_summary(path) for path, _ in pairs], paths, limits)
+
+
+def results_of(
+    records: Sequence[xr.Dataset],
+    summaries: Sequence[dict[str, Any]] = (),
+    paths: Sequence[Path] = (),
+    limits: Limits | None = None,
+) -> tuple[Result, ...]:
+    """Results from records that are at hand; otherwise as `load_results`."""
+    names = _names(records, paths)
+    found = []
+    for k, (name, record) in enumerate(zip(names, records, strict=True)):
+        _require_motion(record, name)
+        summary = summaries[k] if k < len(summaries) else {}
+        verdicts = judge(record, limits or own_limits(record))
+        look = _COLOURS[k % len(_COLOURS)], _DASHES[k % len(_DASHES)]
+        found.append(Result(name, record, summary, verdicts, *look))
+    return tuple(found)
+
+
+def shown_bearing(results: Sequence[Result], named: str | None = None) -> str:
+    """The bearing that a report opens with: the named one, or the one with the worst verdict.
+
+    Raises
+    ------
+    ReportError
+        When no result has a bearing of this name.
+    """
+    known = list(dict.fromkeys(name for result in results for name in result.bearings))
+    if named is not None:
+        if named not in known:
+            raise ReportError(f"--bearing {named}: no such bearing; allowed are {', '.join(known)}")
+        return named
+    verdicts = worst(verdict for result in results for verdict in result.verdicts if verdict.bearing)
+    if verdicts and verdicts[0].share > 1.0:
+        return verdicts[0].bearing
+    return analysed_bearing(results[0].record)
+
+
+def _read(path: Path) -> xr.Dataset:
+    file = path / RECORD_FILE if path.is_dir() else path
+    if not file.is_file():
+        raise ReportError(f"{path}: no record; allowed is the folder of a run, or its {RECORD_FILE}")
+    try:
+        return read_record(file)
+    except (OSError, ValueError, KeyError) as error:
+        raise ReportError(f"{file}: no record: {error}") from None
+
+
+def _summary(path: Path) -> dict[str, Any]:
+    file = (path if path.is_dir() else path.parent) / SUMMARY_FILE
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _require_motion(record: xr.Dataset, name: str) -> None:
+    needed = ("force", "displacement", "offset", "least_gap", "contact_force", "bearing_clearance")
+    missing = [key for key in needed if key not in record]
+    if missing:
+        raise ReportError(
+            f"{name}: the record holds no {', '.join(missing)}; allowed is one of a run of this version"
+        )
+    if record.sizes["time"] < 2:
+        raise ReportError(f"{name}: the record holds {record.sizes['time']} instants; allowed are 2 or more")
+
+
+def _names(records: Sequence[xr.Dataset], paths: Sequence[Path]) -> list[str]:
+    """The depth of each run where that tells them apart; else the names of their folders; else numbers."""
+    depths = [style.run_name(record).partition(":")[0] for record in records]
+    if len(set(depths)) == len(records):
+        return depths
+    folders = [path.absolute().name if path.is_dir() else path.absolute().parent.name for path in paths]
+    if len(set(folders)) == len(records):
+        return folders
+    return [f"{k} {name}" for k, name in enumerate(folders or depths, 1)]

@@ -1,0 +1,63 @@
+"""Make the report of one or several results, and write it whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from orchestrator.errors import NotWrittenError
+from orchestrator.report.page import page
+from orchestrator.report.panels.orbits import orbits
+from orchestrator.report.panels.panel import Panel
+from orchestrator.report.panels.series import bearing_series, shaft_series
+from orchestrator.report.panels.shaft import deformed_shafts
+from orchestrator.report.panels.spectra import spectra, waterfalls
+from orchestrator.report.source import Result, shown_bearing
+
+FILE = "report.html"
+
+
+def report_text(results: Sequence[Result], bearing: str | None = None) -> str:
+    """The page of the results; it opens with the named bearing, or the one with the worst verdict.
+
+    Raises
+    ------
+    ReportError, LibraryMissingError
+        No such bearing; no plotting library.
+    """
+    return page(results, tuple(_panels(results)), shown_bearing(results, bearing))
+
+
+def write_report(results: Sequence[Result], path: Path, bearing: str | None = None) -> Path:
+    """Write the page; otherwise see `report_text`.
+
+    Raises
+    ------
+    NotWrittenError
+        When it cannot be written; an earlier one stays as it is.
+    """
+    content = report_text(results, bearing)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=".report_", suffix=".html", dir=path.parent)
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as file:
+                file.write(content)
+            Path(name).chmod(0o644)
+            Path(name).replace(path)
+        finally:
+            Path(name).unlink(missing_ok=True)
+    except OSError as error:
+        raise NotWrittenError(f"{path}: report not written: {error.strerror or error}") from None
+    return path
+
+
+def _panels(results: Sequence[Result]) -> Iterator[Panel]:
+    yield from orbits(results)
+    yield from bearing_series(results)
+    yield from spectra(results)
+    yield from waterfalls(results)
+    yield from shaft_series(results)
+    yield from deformed_shafts(results)

@@ -1,0 +1,1 @@
+"""What a run is held against: limits with their sources, and how far each is used."""

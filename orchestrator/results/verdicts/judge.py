@@ -1,0 +1,192 @@
+"""Hold a record against the limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from orchestrator.results.geometry import bearing_value
+from orchestrator.results.quantities import FORCE, GAP, NUMBER, PRESSURE, STRESS, VIBRATION, shown
+from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
+from orchestrator.results.statistics import bearing_statistics, contact_threshold, shaft_statistics
+from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
+from orchestrator.results.verdicts.verdict import Grade, Verdict, held
+from orchestrator.results.windows import Phase, phases
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+
+class Action(StrEnum):
+    """What is done with the machine."""
+
+    TRIP = "trip: shut the train down at once"
+    INSPECT = "inspect: go on no longer than needed, open the bearing"
+    TOLERABLE = "tolerable: no reason to shut the train down"
+    UNKNOWN = "no conclusion"
+
+
+def own_limits(record: xr.Dataset) -> Limits:
+    """The limits that a run was given, or the usual ones."""
+    text = record.attrs.get(ATTRIBUTE)
+    return limits_of(str(text)) if text else load_limits()
+
+
+def judge(record: xr.Dataset, limits: Limits) -> tuple[Verdict, ...]:
+    """Hold every phase of a run at every bearing against every limit that is known.
+
+    Parameters
+    ----------
+    record : xarray.Dataset
+        With the geometry of its bearings, see `orchestrator.results.geometry`.
+    limits : Limits
+        From `orchestrator.results.verdicts.limits.load_limits`.
+    """
+    if record.sizes.get("time", 0) < 2:
+        return ()
+    found = phases(record)
+    verdicts: list[Verdict] = []
+    for name in map(str, record["bearing"].values):
+        one = _Bearing.of(record, name, found)
+        for phase in found:
+            verdicts += one.verdicts(phase, limits)
+        verdicts += one.film_regime(limits)
+    if limits.stress is not None:
+        verdicts += _stress(record, found, limits)
+    return tuple(verdicts)
+
+
+def worst(verdicts: Iterable[Verdict]) -> tuple[Verdict, ...]:
+    """Of each limit in each phase the verdict at the place where the most of it is used, the worst first."""
+    best: dict[tuple[str, str], Verdict] = {}
+    for verdict in verdicts:
+        key = verdict.limit, verdict.phase
+        if key not in best or _order(verdict) > _order(best[key]):
+            best[key] = verdict
+    return tuple(sorted(best.values(), key=_order, reverse=True))
+
+
+def action_of(verdicts: Iterable[Verdict]) -> Action:
+    """What follows from the verdicts of a machine."""
+    beyond = [verdict for verdict in verdicts if verdict.grade is Grade.BEYOND]
+    if any(verdict.trips for verdict in beyond):
+        return Action.TRIP
+    return Action.INSPECT if beyond else Action.TOLERABLE
+
+
+def _order(verdict: Verdict) -> tuple[int, bool, float, float]:
+    return verdict.grade.rank, verdict.trips, verdict.share, abs(verdict.value)
+
+
+@dataclass(frozen=True)
+class _Bearing:
+    """One bearing of a record, with what all its verdicts need."""
+
+    record: xr.Dataset
+    name: str
+    time: NDArray[np.float64]
+    speed: float
+    diameter: float
+    area: float
+    contact_from: float
+
+    @classmethod
+    def of(cls, record: xr.Dataset, name: str, found: tuple[Phase, ...]) -> _Bearing:
+        diameter, width = (bearing_value(record, key, name) for key in ("diameter", "width"))
+        time = np.asarray(record["time"].values, dtype=float)
+        threshold = contact_threshold(record, name, found)
+        return cls(record, name, time, float(record.attrs["speed"]), diameter, diameter * width, threshold)
+
+    def verdicts(self, phase: Phase, limits: Limits) -> Iterator[Verdict]:
+        """In one phase: film, load, contact, vibration."""
+        found = bearing_statistics(self.record, self.name, phase, contact_from=self.contact_from)
+        place = phase.name, self.name
+        if (film := limits.least_film) is not None:
+            bound = film.at(self.diameter, self.speed * self.diameter / 2.0)
+            gap, when = found.least_gap_min, self._when("least_gap_min", phase, least=True)
+            share = bound / gap if gap > 0.0 else math.inf
+            yield held(film, "least film", place, GAP, gap, bound, share=share, instant=when)
+        if (load := limits.specific_load) is not None:
+            lasting, short = found.force_mean / self.area, found.force_max / self.area
+            when = self._when("force_magnitude_max", phase)
+            yield held(load, "specific load, lasting", place, PRESSURE, lasting, load.steady)
+            yield held(load, "specific load, short", place, PRESSURE, short, load.short, instant=when)
+        if (contact := limits.contact) is not None and found.contact_max > self.contact_from:
+            note = f"{100.0 * found.contact_share:.0f} % of the time, first at {found.contact_first:.4f} s"
+            when, force = self._when("contact_force_max", phase), found.contact_max
+            yield held(contact, "solid contact", place, FORCE, force, 0.0, note=note, instant=when, trips=True)
+        if (vibration := limits.shaft_vibration) is not None and "displacement" in self.record:
+            yield self._vibration(phase, vibration)
+
+    def _vibration(self, phase: Phase, limit: ShaftVibration) -> Verdict:
+        """Largest peak to peak over a revolution at the probes; of the lasting motion where nothing happens."""
+        a_b, b_c, c_d = limit.at(self.speed)
+        window = phase.peak if phase.name.startswith("after") else phase.mean
+        inside = window.mask(self.time)
+        motion = self.record["displacement"].sel(bearing=self.name).transpose("axis", "time").values[:, inside]
+        step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
+        turn = round(2.0 * math.pi / abs(self.speed) / step) + 1
+        swing = running_peak_to_peak(probe_signals(*motion, limit.probes), turn)
+        probe, at = np.unravel_index(int(np.argmax(swing)), swing.shape)
+        value = float(swing[probe, at])
+        zone = "ABCD"[sum(value > bound for bound in (a_b, b_c, c_d))]
+        bounds = "/".join(VIBRATION.number(bound) for bound in (a_b, b_c, c_d))
+        angle = math.degrees(limit.probes[probe])
+        note = f"zone {zone} of {bounds} {VIBRATION.unit}, probe at {angle:.0f}°"
+        grade = {"C": Grade.CLOSE, "D": Grade.BEYOND}.get(zone, Grade.WITHIN)
+        when, place = float(self.time[inside][at]), (phase.name, self.name)
+        words = "shaft vibration, peak to peak"
+        found = held(limit, words, place, VIBRATION, value, c_d, note=note, instant=when, trips=True)
+        return replace(found, grade=grade)
+
+    def film_regime(self, limits: Limits) -> Iterator[Verdict]:
+        """Whether the film is laminar, as the films here take it to be."""
+        if (limit := limits.laminar_film) is None:
+            return
+        clearance, viscosity = (bearing_value(self.record, k, self.name) for k in ("clearance", "viscosity"))
+        reynolds = limit.oil_density * abs(self.speed) * self.diameter / 2.0 * clearance / viscosity
+        bound = limit.factor * math.sqrt(self.diameter / 2.0 / clearance)
+        found = held(limit, "laminar film, Re", ("all", self.name), NUMBER, reynolds, bound)
+        if found.grade is Grade.BEYOND:  # the limit of the model, not of the machine
+            found = replace(found, grade=Grade.CLOSE, note="beyond laminar theory")
+        yield found
+
+    def _when(self, name: str, phase: Phase, *, least: bool = False) -> float | None:
+        """Instant of a phase's extreme."""
+        if name not in self.record:
+            return None
+        values = self.record[name].sel(bearing=self.name).values
+        inside = np.flatnonzero(phase.peak.interval_mask(self.time))
+        if not inside.size:
+            return None
+        chosen = values[inside]
+        return float(self.time[inside[int(np.argmin(chosen) if least else np.argmax(chosen))]])
+
+
+def _stress(record: xr.Dataset, found: tuple[Phase, ...], limits: Limits) -> Iterator[Verdict]:
+    limit = limits.stress
+    assert limit is not None
+    time = np.asarray(record["time"].values, dtype=float)
+    for phase in found:
+        row = shaft_statistics(record, phase)
+        inside = phase.peak.mask(time)
+        when = float(time[inside][int(np.argmax(record["normal_stress_max"].values[inside]))])
+        note = f"at z = {row.stress_position:.1f} m"
+        place = phase.name, ""
+        yield held(limit, "normal stress", place, STRESS, row.stress_max, limit.largest, note=note, instant=when)
+
+
+def grounds(verdicts: Iterable[Verdict]) -> str:
+    """The figures that a conclusion rests on, in a line."""
+    return "; ".join(
+        f"{v.limit} {shown(v.value, v.quantity)} at {v.place}"
+        + (f" against {v.bound_text()}" if v.bound > 0.0 else f" ({v.note})")
+        for v in verdicts
+        if v.grade is Grade.BEYOND
+    )
