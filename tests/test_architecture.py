@@ -25,6 +25,7 @@ ROOMS = (
     ("commands",),
     ("study",),
     ("case",),
+    ("report",),
     ("ssp", "linear"),
     ("results",),
     ("observers",),

@@ -13,11 +13,14 @@ from orchestrator.case.certify import certify
 from orchestrator.case.request import RunRequest
 from orchestrator.errors import NotWrittenError
 from orchestrator.outcome import Outcome
+from orchestrator.report.source import results_of
+from orchestrator.report.write import FILE, write_report
 from orchestrator.results.files import write_all
 from orchestrator.results.folder import FIGURES, partial_folder
 from orchestrator.results.result import Result
 from orchestrator.results.summary import RunSummary, summarise
 from orchestrator.results.summary_table import SummaryTable
+from orchestrator.results.verdicts.limits import ATTRIBUTE, load_limits, own_file, to_text
 
 
 def conclude(
@@ -43,6 +46,8 @@ def conclude(
         For output and for what went wrong.
     """
     result, half = results
+    limits = to_text(load_limits(own_file(case.scenario)))
+    result = replace(result, record=result.record.assign_attrs({ATTRIBUTE: limits}))
     summary = summarise(result, analysed=request.bearing)
     if half is not None:
         certificate = certify(summary, summarise(half, analysed=request.bearing))
@@ -77,3 +82,6 @@ def _write(
     console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
     if request.formats and summary.phases:
         console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
+    if request.report and summary.phases:
+        path = write_report(results_of([result.record]), folder / FILE, request.bearing)
+        console.print(f"Report in {path}", highlight=False, soft_wrap=True)

@@ -41,6 +41,8 @@ class RunRequest:
         Wall time in s that a call to a unit may take; 0 for any.
     rotor : str or None
         GUID of the rotor that is meant, where the train may have been edited since it was chosen.
+    report : bool
+        Make the report, too.
     """
 
     source: str
@@ -55,6 +57,7 @@ class RunRequest:
     trust: bool = False
     budget: float = BUDGET
     rotor: str | None = None
+    report: bool = False
 
     @property
     def is_ssp(self) -> bool:

@@ -15,6 +15,7 @@ import typer
 from orchestrator.cli import compare as cli_compare
 from orchestrator.cli import export_ssp as cli_ssp
 from orchestrator.cli import linear as cli_linear
+from orchestrator.cli import report as cli_report
 from orchestrator.cli import resume as cli_resume
 from orchestrator.cli import run as cli_run
 from orchestrator.cli.options import (
@@ -32,6 +33,7 @@ app = typer.Typer(
 )
 cli_compare.register(app)
 cli_linear.register(app)
+cli_report.register(app)
 cli_ssp.register(app)
 cli_resume.register(app)
 cli_run.register(app)

@@ -113,6 +113,9 @@ class RunOptions:
     fmus: Fmus = None
     figure_format: FigureFormats = None
     figures: Annotated[bool, typer.Option(help="Draw the figures.")] = True
+    report: Annotated[
+        bool, typer.Option("--report", help="Make the page report.html, see bladeloss report.")
+    ] = False
     trust: Trust = False
     budget: Budget = 60.0
     rotor: Annotated[str | None, typer.Option(hidden=True, help="GUID of the rotor that is meant.")] = None
@@ -159,6 +162,7 @@ def run(options: RunOptions) -> int:
         options.trust,
         options.budget,
         options.rotor,
+        options.report,
     )
     return run_command.run(request, Console(), Console(stderr=True))
 

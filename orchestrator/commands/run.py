@@ -17,6 +17,7 @@ from orchestrator.case.simulate import Execution, default_threads, execute
 from orchestrator.fmi.watchdog import Watchdog, leave
 from orchestrator.master.interrupt import interrupt_between_steps
 from orchestrator.observers.checkpoint import Checkpoint
+from orchestrator.report.library import require_library
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.result import Result
 
@@ -43,6 +44,8 @@ def run(request: RunRequest, console: Console, errors: Console, saved: Checkpoin
     OrchestratorError
         For anything wrong with the input; nothing is written then.
     """
+    if request.report:
+        require_library()
     with prepare(request, console, saved) as case:
         return run_case(case, request, console, errors, saved)
 

@@ -31,7 +31,11 @@ def packed(values: ArrayLike, largest: float | None = None) -> dict[str, Any]:
     numbers: NDArray[np.int16] = np.full(x.shape, -_FULL - 1, dtype="<i2")
     inside = np.isfinite(x)
     numbers[inside] = np.clip(np.round((x[inside] - middle) / step), -_FULL, _FULL).astype("<i2")
-    found: dict[str, Any] = {"packed": base64.b64encode(numbers.tobytes()).decode(), "step": step, "at": middle}
+    found: dict[str, Any] = {
+        "packed": base64.b64encode(numbers.tobytes()).decode(),
+        "step": step,
+        "at": middle,
+    }
     if x.ndim == 2:
         found["columns"] = x.shape[1]
     return found

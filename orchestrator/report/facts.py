@@ -82,7 +82,9 @@ def trust(result: Result) -> Iterator[Fact]:
         yield Fact("film regime", text, Level.MIND)
     elif films:
         most = max(films, key=lambda v: v.share)
-        yield Fact("film regime", f"laminar; largest Re {most.value:.0f} against {most.bound:.0f}", Level.GOOD)
+        yield Fact(
+            "film regime", f"laminar; largest Re {most.value:.0f} against {most.bound:.0f}", Level.GOOD
+        )
     notes = [f"{phase.name}: {phase.note}" for phase in result.phases if phase.note]
     if notes:
         yield Fact("windows", "; ".join(notes), Level.MIND)
@@ -97,8 +99,8 @@ def _defect(result: Result) -> Iterator[Fact]:
     share = defect.largest / largest if largest > 0.0 else 0.0
     level = Level.GOOD if share <= DEFECT_FINE else Level.MIND if share <= DEFECT_COARSE else Level.BAD
     text = (
-        f"median {shown(defect.median, FORCE)}, largest {shown(defect.largest, FORCE)}, {100 * share:.2g} % of the "
-        f"largest force, at {defect.bearing}, {defect.time:.4f} s"
+        f"median {shown(defect.median, FORCE)}, largest {shown(defect.largest, FORCE)}, {100 * share:.2g} % "
+        f"of the largest force, at {defect.bearing}, {defect.time:.4f} s"
     )
     yield Fact("coupling defect", text, level)
 
@@ -106,7 +108,9 @@ def _defect(result: Result) -> Iterator[Fact]:
 def _certificate(result: Result) -> Iterator[Fact]:
     attributes = result.record.attrs
     if "half_step" not in attributes:
-        yield Fact("certificate", "none: bladeloss run --certify repeats the run at half the step", Level.MIND)
+        yield Fact(
+            "certificate", "none: bladeloss run --certify repeats the run at half the step", Level.MIND
+        )
         return
     changes = {
         key.removeprefix("half_step_").replace("_", " "): float(value)
@@ -125,7 +129,10 @@ def _model(result: Result) -> str:
         film = tomllib.loads(str(attributes.get("scenario", ""))).get("film", {})
     except tomllib.TOMLDecodeError:
         film = {}
-    parts = [f"coupling {attributes.get('coupling', '?')}", f"macro step {float(attributes['macro_step']) * 1e3:.3g} ms"]
+    parts = [
+        f"coupling {attributes.get('coupling', '?')}",
+        f"macro step {float(attributes['macro_step']) * 1e3:.3g} ms",
+    ]
     if "columns" in film:
         parts.append(f"film {film['columns']} × {film['rows']}")
     if "reduction" in attributes:
@@ -156,7 +163,8 @@ def bearing_lines(result: Result) -> Iterator[BearingLine]:
     for bearing in result.bearings:
         threshold = contact_threshold(result.record, bearing, result.phases)
         start, end = (
-            bearing_statistics(result.record, bearing, phase, contact_from=threshold) for phase in (first, last)
+            bearing_statistics(result.record, bearing, phase, contact_from=threshold)
+            for phase in (first, last)
         )
         own = [v for v in result.verdicts if v.bearing == bearing and not v.limit.startswith("laminar")]
         swing = max((v.value for v in own if v.quantity is VIBRATION), default=math.nan)
@@ -181,6 +189,6 @@ def _orders(result: Result, bearing: str, phase: Phase) -> tuple[float, ...]:
     inside = phase.mean.mask(result.time)
     if np.count_nonzero(inside) < 8:
         return (math.nan,) * 3
-    signal = probe_signals(*result.journal(bearing)[:, inside], probes_of(result)[:1])[0]
+    signal = probe_signals(result.journal(bearing)[:, inside], probes_of(result)[:1])[0]
     found = order_amplitudes(result.time[inside], signal, result.speed, (0.5, 1.0, 2.0))
     return tuple(float(a) for a in np.abs(found))

@@ -13,13 +13,15 @@ class Markup(str):
 
 
 def tag(name: str, /, *children: str, **attributes: str | int | None) -> Markup:
-    """An element; ``_`` in the name of an attribute stands for ``-``, ``klass`` for ``class``, None leaves it out."""
+    """An element; of attributes ``_`` stands for ``-``, ``klass`` for ``class``; None is left out."""
     given = "".join(
         f' {"class" if key == "klass" else key.replace("_", "-")}="{escape(str(value))}"'
         for key, value in attributes.items()
         if value is not None
     )
-    inner = "".join(child if isinstance(child, Markup) else escape(str(child), quote=False) for child in children)
+    inner = "".join(
+        child if isinstance(child, Markup) else escape(str(child), quote=False) for child in children
+    )
     return Markup(f"<{name}{given}>{inner}</{name}>")
 
 
@@ -48,5 +50,7 @@ def table(heads: Sequence[str], rows: Iterable[Markup], texts: Sequence[int] = (
 def row(cells: Sequence[str], texts: Sequence[int] = (), **attributes: str | None) -> Markup:
     """A row of a table."""
     return tag(
-        "tr", *(tag("td", cell, klass="text" if k in texts else None) for k, cell in enumerate(cells)), **attributes
+        "tr",
+        *(tag("td", cell, klass="text" if k in texts else None) for k, cell in enumerate(cells)),
+        **attributes,
     )

@@ -26,13 +26,25 @@ _HERE = Path(__file__).parent
 _LOOKS = {Action.TRIP: "beyond", Action.INSPECT: "close", Action.TOLERABLE: "within", Action.UNKNOWN: "none"}
 SECTIONS = {
     "orbits": ("Orbits in the clearance", ""),
-    "series": ("Forces and gaps over time", "Extremes of every macro step; no peak is lost where lines are thinned."),
-    "spectra": ("Spectra", "Zero to peak of the journal's motion at the angles of the probes; Hann window over whole pairs of revolutions of the means' windows."),
+    "series": (
+        "Forces and gaps over time",
+        "Extremes of every macro step; no peak is lost where lines are thinned.",
+    ),
+    "spectra": (
+        "Spectra",
+        "Zero to peak of the journal's motion at the angles of the probes; Hann window over whole pairs of "
+        "revolutions, before the event and from where means are taken behind it.",
+    ),
     "waterfall": ("Waterfall", "The same at the first probe over time."),
     "pressure": ("Film pressure", "Unwrapped film at the worst instants of the record; 0° is x, 90° is up."),
     "shaft": ("Shaft", "From the static line; stresses are nominal, from bending."),
-    "shaft3d": ("Deformed shaft", "Move the slider; turn and zoom with the mouse or two fingers. Red: paths of the journals around the worst instant."),
-}  # fmt: skip
+    "shaft3d": (
+        "Deformed shaft",
+        "Move the slider; turn and zoom with the mouse or two fingers. Red: paths of the journals around the "
+        "worst instant.",
+    ),
+}
+"""Heading and words of each section, in their order on the page."""
 VERDICT_HEADS = ("limit", "where", "phase", "value", "limit", "used", "instant", "", "source")
 _TEXTS = (0, 1, 2, 7, 8)
 
@@ -52,7 +64,9 @@ def page(results: Sequence[Result], panels: Sequence[Panel], bearing: str) -> st
     title = str(results[0].record.attrs.get("title", "")) or "Results"
     ids = {f"p{k}": panel for k, panel in enumerate(panels)}
     content = to_json({key: panel.data() for key, panel in ids.items()})
-    body = joined([_header(title, results), _nav(results, ids, bearing), _main(results, ids), _footer(results)])
+    body = joined(
+        [_header(title, results), _nav(results, ids, bearing), _main(results, ids), _footer(results)]
+    )
     parts = [
         "<!doctype html>",
         '<html lang="en">',
@@ -86,7 +100,9 @@ def _run(result: Result, *, several: bool) -> Markup:
     word, _, rest = action.partition(": ")
     name = (tag("h3", _key(result), result.name),) if several or not finished(result) else ()
     facts = joined(
-        joined([tag("dt", fact.label), tag("dd", dot(fact.level) if fact.level != "plain" else "", fact.text)])
+        joined(
+            [tag("dt", fact.label), tag("dd", dot(fact.level) if fact.level != "plain" else "", fact.text)]
+        )
         for fact in trust(result)
     )
     return tag(
@@ -103,7 +119,9 @@ def _key(result: Result) -> Markup:
 
 def _nav(results: Sequence[Result], ids: dict[str, Panel], bearing: str) -> Markup:
     names = dict.fromkeys(name for result in results for name in result.bearings)
-    options = [tag("option", name, value=name, selected="selected" if name == bearing else None) for name in names]
+    options = [
+        tag("option", name, value=name, selected="selected" if name == bearing else None) for name in names
+    ]
     choice = tag("label", "Bearing ", tag("select", *options, id="bearing"))
     used = {panel.section for panel in ids.values()}
     links = [tag("a", SECTIONS[key][0], href=f"#{key}") for key in SECTIONS if key in used]
@@ -124,7 +142,7 @@ def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: 
     several = len(results) > 1
     side = several and key not in ("series", "spectra", "shaft")
     look = "panels side" if side else "panels small" if key == "orbits" else "panels"
-    legend = ()
+    legend: tuple[Markup, ...] = ()
     if key == "orbits":
         entries = (tag("span", _swatch(colour), words) for colour, words in LEGEND)
         legend = (tag("div", *entries, klass="legend soft"),)
@@ -133,7 +151,9 @@ def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: 
     boxes = [_box(name, panel) for name, panel in own.items()]
     count = f"--count:{len(results)}"
     about = (tag("p", text, klass="soft"),) if text else ()
-    return tag("section", tag("h2", heading), *about, *legend, tag("div", *boxes, klass=look, style=count), id=key)
+    return tag(
+        "section", tag("h2", heading), *about, *legend, tag("div", *boxes, klass=look, style=count), id=key
+    )
 
 
 def _swatch(colour: str) -> Markup:
@@ -142,7 +162,7 @@ def _swatch(colour: str) -> Markup:
 
 def _box(name: str, panel: Panel) -> Markup:
     plot = tag("div", klass="plot", style=f"height:{panel.height}px")
-    slider = ()
+    slider: tuple[Markup, ...] = ()
     if panel.moving:
         parts = (
             tag("button", "Play", type="button"),
@@ -151,12 +171,23 @@ def _box(name: str, panel: Panel) -> Markup:
             tag("span", str(panel.moving.get("note", "")), klass="soft"),
         )
         slider = (tag("div", *parts, klass="slider"),)
-    return tag("div", tag("h3", panel.title), plot, *slider, klass="panel", id=name, data_bearing=panel.bearing or None)
+    return tag(
+        "div",
+        tag("h3", panel.title),
+        plot,
+        *slider,
+        klass="panel",
+        id=name,
+        data_bearing=panel.bearing or None,
+    )
 
 
 def _verdicts(results: Sequence[Result]) -> Markup:
     parts: list[Markup] = [tag("h2", "Verdicts")]
-    text = "Of each limit the place where the most of it is used, the worst first. Recalled limits are yours to confirm; limits.toml beside the train replaces them."
+    text = (
+        "Of each limit the place where the most of it is used, the worst first. Recalled limits are yours to "
+        "confirm; limits.toml beside the train replaces them."
+    )
     parts.append(tag("p", text, klass="soft"))
     for result in results:
         if len(results) > 1:
@@ -172,13 +203,25 @@ def verdict_row(v: Verdict) -> Markup:
     """A verdict in a table."""
     when = "" if v.instant is None or not math.isfinite(v.instant) else f"{v.instant:.4f} s"
     mark = joined([dot(v.grade), v.limit])
-    cells = (mark, v.place, v.phase, v.value_text(), v.bound_text(), v.share_text(), when, v.note, v.source_text())
+    cells = (
+        mark,
+        v.place,
+        v.phase,
+        v.value_text(),
+        v.bound_text(),
+        v.share_text(),
+        when,
+        v.note,
+        v.source_text(),
+    )
     return row(cells, _TEXTS, klass=str(v.grade))
 
 
 def _bearings(results: Sequence[Result]) -> Markup:
     parts: list[Markup] = [tag("h2", "Bearings at a glance")]
-    parts.append(tag("p", "Choose a row to see its figures below. ½X and 2X are of the end of the run.", klass="soft"))
+    parts.append(
+        tag("p", "Choose a row to see its figures below. ½X and 2X are of the end of the run.", klass="soft")
+    )
     for result in results:
         if len(results) > 1:
             parts.append(tag("h3", _key(result), result.name))
@@ -199,6 +242,10 @@ def _footer(results: Sequence[Result]) -> Markup:
         text = "\n".join(f"{key}: {attributes[key]}" for key in ("versions", "fmus") if key in attributes)
         scenario = str(attributes.get("scenario", ""))
         parts.append(
-            tag("details", tag("summary", f"How it was made: {result.name}"), tag("pre", f"{text}\n\n{scenario}"))
+            tag(
+                "details",
+                tag("summary", f"How it was made: {result.name}"),
+                tag("pre", f"{text}\n\n{scenario}"),
+            )
         )
     return tag("footer", *parts)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +55,8 @@ class Result:
     verdicts: tuple[Verdict, ...] = ()
     colour: str = _COLOURS[0]
     dash: str = _DASHES[0]
+    _kept: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
+    _thresholds: dict[str, float] = field(default_factory=dict, repr=False)
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -65,33 +68,33 @@ class Result:
         """Speed of rotation in rad/s."""
         return float(self.record.attrs["speed"])
 
-    @property
+    @cached_property
     def bearings(self) -> tuple[str, ...]:
         """Names of the bearings from front to rear."""
         return tuple(str(name) for name in self.record["bearing"].values)
 
-    @property
+    @cached_property
     def phases(self) -> tuple[Phase, ...]:
         """Phases of the run."""
         return phases(self.record)
 
     def of(self, name: str, bearing: str) -> NDArray[np.float64]:
-        """A series of a bearing; a vector with its axes first."""
-        values = self.record[name].sel(bearing=bearing)
-        return np.asarray(values.transpose(*(d for d in values.dims if d != "time"), "time").values, dtype=float)
+        """A quantity of a bearing; time is its last axis, x and y the one before."""
+        if name not in self._kept:
+            values = self.record[name]
+            order = [d for d in ("bearing", "axis", "time") if d in values.dims]
+            self._kept[name] = np.asarray(values.transpose(*order).values, dtype=float)
+        return self._kept[name][self.bearings.index(bearing)]
 
     def journal(self, bearing: str) -> NDArray[np.float64]:
         """Journal from the centre of its bearing, shape (2, time), in m."""
-        return self.of("displacement", bearing) - self.of_bearing("offset", bearing)[:, None]
-
-    def of_bearing(self, name: str, bearing: str) -> NDArray[np.float64]:
-        """What does not depend on time, at a bearing."""
-        return np.asarray(self.record[name].sel(bearing=bearing).values, dtype=float)
+        return self.of("displacement", bearing) - self.of("offset", bearing)[:, None]
 
     def touching(self, bearing: str) -> NDArray[np.bool_]:
         """When surfaces touch."""
-        threshold = contact_threshold(self.record, bearing, self.phases)
-        return self.of("contact_force", bearing) > threshold
+        if bearing not in self._thresholds:
+            self._thresholds[bearing] = contact_threshold(self.record, bearing, self.phases)
+        return self.of("contact_force", bearing) > self._thresholds[bearing]
 
 
 def load_results(paths: Sequence[Path], limits: Limits | None = None) -> tuple[Result, ...]:

@@ -14,7 +14,16 @@ from orchestrator.errors import OrchestratorError
 PARTIAL = "PARTIAL.txt"
 """Name of the file that marks a run that did not reach its end, with the reason."""
 FIGURES = "figures"
-RUN_FILES = ("record.nc", "record.csv", "summary.txt", "summary.json", "scenario.toml", FIGURES, PARTIAL)
+RUN_FILES = (
+    "record.nc",
+    "record.csv",
+    "summary.txt",
+    "summary.json",
+    "scenario.toml",
+    "report.html",
+    FIGURES,
+    PARTIAL,
+)
 _SIGN = "scenario.toml"  # a folder with this file and nothing alien to it is an earlier result
 
 

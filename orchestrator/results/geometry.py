@@ -1,4 +1,4 @@
-"""What a record says of the machine, so that it can be read without the train: bearings, wheels, shaft, names."""
+"""What a record says of the machine, so that it can be read without the train."""
 
 from __future__ import annotations
 
@@ -94,8 +94,9 @@ def _columns(dimension: str, items: Any, table: Mapping[str, tuple[str, str, str
 def _node_names(train: Train) -> list[str]:
     """Names of bearings, wheels and couplings at each node; empty where there are none."""
     found: dict[int, list[str]] = {}
-    for item in (*train.bearings, *train.wheels, *train.couplings):
-        found.setdefault(item.node, []).append(item.name)
+    for seat in (train.bearings, train.wheels, train.couplings):
+        for item in seat:
+            found.setdefault(item.node, []).append(item.name)
     return [", ".join(found.get(node, ())) for node in range(train.nodes)]
 
 

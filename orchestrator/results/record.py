@@ -91,7 +91,11 @@ def make_record(
         **_shaft_variables(recorder),
         **train_variables(scenario, train),
         "offset": (("bearing", "axis"), start.offsets[:, :2], _words("m", "bearing centre")),
-        "offset_tilt": (("bearing", "axis"), start.offsets[:, 2:], _words("rad", "tilts of the bearing's axis")),
+        "offset_tilt": (
+            ("bearing", "axis"),
+            start.offsets[:, 2:],
+            _words("rad", "tilts of the bearing's axis"),
+        ),
         "static_force": (("bearing", "axis"), start.loads, _words("N", "static bearing force on the shaft")),
         "static_line": (("node", "axis"), start.static_line, _words("m", "static line of the shaft")),
     }

@@ -21,7 +21,7 @@ from orchestrator.scenario.problems import (
     unbalance_problems,
 )
 from orchestrator.scenario.scenario import Scenario
-from rotor_fmu.train.file import TrainFileError, bundled_trains, load_train
+from rotor_fmu.train.file import DATA, TrainFileError, bundled_trains, load_train
 from rotor_fmu.train.toml_source import Location, Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import choice
@@ -115,6 +115,14 @@ def train_of(scenario: Scenario) -> Train:
         When it cannot be read.
     """
     return read_train(_train_path(scenario.train, scenario.folder))
+
+
+def train_folder(scenario: Scenario) -> Path:
+    """Folder of the files of a scenario's train."""
+    if scenario.train in bundled_trains():
+        return DATA / scenario.train
+    path = scenario.folder / scenario.train
+    return path if path.is_dir() else path.parent
 
 
 def read_train(source: str | Path) -> Train:

@@ -39,7 +39,7 @@ def orbits(results: Sequence[Result]) -> Iterator[Panel]:
 
 
 def _reach(result: Result, bearing: str) -> float:
-    clearance = float(result.of_bearing("bearing_clearance", bearing))
+    clearance = float(result.of("bearing_clearance", bearing))
     return 1.08 * MICRO * max(clearance, float(np.abs(result.journal(bearing)).max()))
 
 
@@ -67,7 +67,7 @@ def _spans(result: Result) -> list[tuple[str, Window, str, float]]:
 
 def _traces(result: Result, bearing: str) -> list[Trace]:
     journal = result.journal(bearing) * MICRO
-    clearance = float(result.of_bearing("bearing_clearance", bearing)) * MICRO
+    clearance = float(result.of("bearing_clearance", bearing)) * MICRO
     angle = np.linspace(0.0, 2.0 * np.pi, 121)
     circle = {
         "type": "scatter", "mode": "lines", "line": {"color": INK, "width": 1.6}, "hoverinfo": "skip",
@@ -88,7 +88,7 @@ def _traces(result: Result, bearing: str) -> list[Trace]:
         traces.append({"type": "scatter", **look, **_points(journal[:, chosen])})
     worst = int(np.argmin(result.of("least_gap", bearing)))
     text = f"least gap {result.of('least_gap', bearing)[worst] * MICRO:.1f} µm at {result.time[worst]:.4f} s"
-    star = {"symbol": "star", "size": 11, "color": "#F2B705", "line": {"color": INK, "width": 1}}
+    star = {"symbol": "star", "size": 8, "color": "#F2B705", "line": {"color": INK, "width": 1}}
     marked = {"mode": "markers", "marker": star, "name": text}
     traces.append({"type": "scatter", **marked, **_points(journal[:, [worst]])})
     return traces

@@ -58,12 +58,21 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
             ) | ({"matches": "x"} if k else {})
             for result, series in zip(having, values, strict=True):
                 traces.append(
-                    line(result, result.name, xaxis=f"x{tail}", yaxis=f"y{tail}", showlegend=k == 0, legendgroup=result.name)
+                    line(
+                        result,
+                        result.name,
+                        xaxis=f"x{tail}",
+                        yaxis=f"y{tail}",
+                        showlegend=k == 0,
+                        legendgroup=result.name,
+                    )
                     | _thinned(result.time, series * unit.factor, samples)
                 )
             if quantity is GAP:
                 shown["shapes"] = [*shown["shapes"], _zero(tail)]
-        yield Panel("series", f"{bearing}: force, least gap, contact", traces, shown, bearing, 170 * len(table) + 60)
+        yield Panel(
+            "series", f"{bearing}: force, least gap, contact", traces, shown, bearing, 170 * len(table) + 60
+        )
 
 
 def shaft_series(results: Sequence[Result]) -> Iterator[Panel]:
@@ -73,15 +82,25 @@ def shaft_series(results: Sequence[Result]) -> Iterator[Panel]:
     table = (("vibration_amplitude_max", AMPLITUDE), ("normal_stress_max", STRESS))
     for k, ((name, quantity), span) in enumerate(zip(table, rows(2), strict=True)):
         tail = str(k + 1) if k else ""
-        shown[f"yaxis{tail}"] = axis(quantity.axis, domain=span, anchor=f"x{tail}", rangemode="tozero")
+        label = f"{quantity.label.split()[-1]} [{quantity.unit}]"
+        shown[f"yaxis{tail}"] = axis(label, domain=span, anchor=f"x{tail}", rangemode="tozero")
         shown[f"xaxis{tail}"] = axis("time [s]" if k else "", anchor=f"y{tail}", showticklabels=bool(k)) | (
             {"matches": "x"} if k else {}
         )
         for result in results:
             values = np.asarray(result.record[name].values, dtype=float) * quantity.factor
-            start = line(result, result.name, xaxis=f"x{tail}", yaxis=f"y{tail}", showlegend=k == 0, legendgroup=result.name)
+            start = line(
+                result,
+                result.name,
+                xaxis=f"x{tail}",
+                yaxis=f"y{tail}",
+                showlegend=k == 0,
+                legendgroup=result.name,
+            )
             traces.append(start | _thinned(result.time, values, samples))
-    yield Panel("shaft", "Largest vibration amplitude and normal stress along the shaft", traces, shown, height=380)
+    yield Panel(
+        "shaft", "Largest vibration amplitude and normal stress along the shaft", traces, shown, height=380
+    )
 
 
 def _thinned(time: Floats, values: Floats, samples: int) -> dict[str, object]:
@@ -92,4 +111,13 @@ def _thinned(time: Floats, values: Floats, samples: int) -> dict[str, object]:
 def _zero(tail: str) -> dict[str, object]:
     """The line below which asperities are flattened."""
     look = {"color": CONTACT, "width": 1}
-    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 0, "y1": 0, "yref": f"y{tail}", "line": look}
+    return {
+        "type": "line",
+        "xref": "paper",
+        "x0": 0,
+        "x1": 1,
+        "y0": 0,
+        "y1": 0,
+        "yref": f"y{tail}",
+        "line": look,
+    }

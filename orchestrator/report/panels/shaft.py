@@ -26,12 +26,19 @@ def deformed_shafts(results: Sequence[Result]) -> Iterator[Panel]:
     if not films:
         return
     reach = 1.05 * max(film.reach for film in films)
-    force = 0.8 * reach / max(film.largest_force for film in films)
+    force = 1.0 * reach / max(film.largest_force for film in films)
     stress = max(film.largest_stress for film in films)
     for film in films:
         title = "Deformed shaft and bearing forces"
         title += f", {film.result.name}" if len(results) > 1 else ""
-        yield Panel("shaft3d", title, film.traces(force, stress), film.layout(reach), height=520, moving=film.moving(force))
+        yield Panel(
+            "shaft3d",
+            title,
+            film.traces(force, stress),
+            film.layout(reach),
+            height=520,
+            moving=film.moving(force),
+        )
 
 
 class _Film:
@@ -79,7 +86,8 @@ class _Film:
         shaft = _line(self.z, self.x[k], self.y[k]) | {
             "name": "shaft", "hovertemplate": "z %{x:.2f} m<br>x %{y:.3f} mm<br>y %{z:.3f} mm<extra></extra>",
             "line": {
-                "width": 9, "color": packed(self.stress[k]), "colorscale": "Viridis", "cmin": 0, "cmax": stress,
+                "width": 9, "color": packed(self.stress[k]), "colorscale": "Viridis",
+                "cmin": 0, "cmax": stress,
                 "colorbar": {"title": {"text": "N/mm²"}, "thickness": 12, "len": 0.7},
             },
         }  # fmt: skip
@@ -87,11 +95,17 @@ class _Film:
             "line": {"width": 2, "color": CALM}, "hoverinfo": "skip", "name": "axis at rest",
         }  # fmt: skip
         fx, fy, fz = _arrows(self, k, force)
-        arrows = _line(fz, fx, fy) | {"line": {"width": 5, "color": _FORCE}, "hoverinfo": "skip", "name": "force"}
+        arrows = _line(fz, fx, fy) | {
+            "line": {"width": 5, "color": _FORCE},
+            "hoverinfo": "skip",
+            "name": "force",
+        }
         seats = {
-            "type": "scatter3d", "mode": "markers+text", "x": self.seats.tolist(), "y": [0.0] * len(self.seats),
-            "z": [0.0] * len(self.seats), "text": list(self.result.bearings), "textposition": "bottom center",
-            "textfont": {"size": 10}, "marker": {"size": 3, "color": INK}, "hoverinfo": "text", "name": "bearings",
+            "type": "scatter3d", "mode": "markers+text", "x": self.seats.tolist(),
+            "y": [0.0] * self.seats.size, "z": [0.0] * self.seats.size, "text": list(self.result.bearings),
+            "textposition": [("bottom center", "top center")[k % 2] for k in range(self.seats.size)],
+            "textfont": {"size": 10}, "marker": {"size": 3, "color": INK}, "hoverinfo": "text",
+            "name": "bearings",
         }  # fmt: skip
         return [shaft, arrows, axis, seats, *_orbits(self)]
 
@@ -104,7 +118,7 @@ class _Film:
             "zaxis": {"title": {"text": "y [mm]"}, **across},
             "aspectmode": "manual",
             "aspectratio": {"x": 2.6, "y": 0.8, "z": 0.8},
-            "camera": {"eye": {"x": 0.9, "y": -2.1, "z": 0.75}},
+            "camera": {"eye": {"x": 0.35, "y": -1.75, "z": 0.55}, "center": {"x": 0, "y": 0, "z": -0.1}},
         }
         return layout(scene=scene, showlegend=False, margin={"l": 0, "r": 0, "t": 0, "b": 0})
 
@@ -112,7 +126,13 @@ class _Film:
         """What the slider moves: the shaft with its stress, and the forces."""
         frames = range(self.frames.size)
         arrows = np.array([_arrows(self, k, force)[:2] for k in frames])
-        values = {"0.y": self.x, "0.z": self.y, "0.line.color": self.stress, "1.y": arrows[:, 0], "1.z": arrows[:, 1]}
+        values = {
+            "0.y": self.x,
+            "0.z": self.y,
+            "0.line.color": self.stress,
+            "1.y": arrows[:, 0],
+            "1.z": arrows[:, 1],
+        }
         errors = {"0.line.color": 0.1}
         moved = {key: packed(value, errors.get(key, 1e-3)) for key, value in values.items()}
         largest = nice(self.largest_force)

@@ -14,12 +14,14 @@ from orchestrator.report.source import Result
 from orchestrator.results.signals.orders import NAMED, probe_signals
 from orchestrator.results.signals.spectrum import Spectrum, spectrum, waterfall
 from orchestrator.results.verdicts.judge import own_limits
-from orchestrator.results.windows import Window
+from orchestrator.results.windows import Phase, Window
 
 HIGHEST = 6.0
 """Order of the speed up to which spectra are drawn."""
-LENGTH, SLICES = 6.0, 60
+LENGTH, SLICES = 8.0, 80
 """Revolutions of a slice of a waterfall, and how many slices."""
+STEADY = 20.0
+"""Revolutions before an event of which the spectrum is made."""
 FLOOR = 1e-3
 """Smallest amplitude drawn [µm]."""
 DEFAULT_PROBES = (math.pi / 4.0, 3.0 * math.pi / 4.0)
@@ -33,12 +35,19 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
         angles = probes_of(having[0])
         spans = rows(len(angles), 0.09)
         traces: list[Trace] = []
-        shown = layout(showlegend=True, **order_lines(having[0], HIGHEST))
+        shown = layout(
+            showlegend=True,
+            legend={"orientation": "h", "x": 1, "xanchor": "right", "y": 1.07, "yanchor": "bottom"},
+            margin={"l": 62, "r": 14, "t": 46, "b": 44},
+            **order_lines(having[0], HIGHEST),
+        )
         for k, (angle, span) in enumerate(zip(angles, spans, strict=True)):
             tail = str(k + 1) if k else ""
             below = k == len(angles) - 1
             title = f"{math.degrees(angle):.0f}° [µm]"
-            shown[f"yaxis{tail}"] = axis(title, domain=span, anchor=f"x{tail}", type="log", exponentformat="power")
+            shown[f"yaxis{tail}"] = axis(
+                title, domain=span, anchor=f"x{tail}", type="log", exponentformat="power"
+            )
             shown[f"xaxis{tail}"] = axis(
                 "frequency [Hz]" if below else "", anchor=f"y{tail}", showticklabels=below
             ) | ({"matches": "x"} if k else {})
@@ -89,15 +98,29 @@ def _lines(result: Result, bearing: str, angle: float, tail: str, *, several: bo
     shown = {"before": ("before", 1.0, "dot"), "steady": ("lasting", 1.3, "solid")}
     for phase in result.phases:
         name, width, dash = shown.get(phase.name, (phase.name, 1.5, "solid"))
-        found = _spectrum(result, bearing, angle, phase.mean)
+        found = _spectrum(result, bearing, angle, _window(result, phase))
         if found is None:
             continue
         label = f"{result.name}, {name}" if several else name
         colour = result.colour if several or name != "before" else "#555555"
         look = {"width": width, "dash": dash, "color": colour}
         yield line(
-            result, label, line=look, xaxis=f"x{tail}", yaxis=f"y{tail}", showlegend=not tail, legendgroup=label
+            result,
+            label,
+            line=look,
+            xaxis=f"x{tail}",
+            yaxis=f"y{tail}",
+            showlegend=not tail,
+            legendgroup=label,
         ) | {"x": packed(found.frequency, 1e-3), "y": packed_log(found.amplitude)}
+
+
+def _window(result: Result, phase: Phase) -> Window:
+    """Where the motion is steady: before an event the last revolutions, or else where means are taken."""
+    if phase.name != "before":
+        return phase.mean
+    turn = 2.0 * math.pi / abs(result.speed)
+    return Window(max(phase.span.start, phase.span.end - STEADY * turn), phase.span.end)
 
 
 def packed_log(values: Any) -> dict[str, Any]:
@@ -114,7 +137,7 @@ def _spectrum(result: Result, bearing: str, angle: float, window: Window) -> Spe
     chosen = (time > max(start, time[0]) - 0.5 * step) & (time < window.end - 0.5 * step)
     if np.count_nonzero(chosen) < 8:
         return None
-    signal = probe_signals(*result.journal(bearing)[:, chosen], [angle])[0]
+    signal = probe_signals(result.journal(bearing)[:, chosen], [angle])[0]
     found = spectrum(time[chosen], signal * 1e6)
     inside = (found.frequency > 0.0) & (found.frequency <= HIGHEST / turn)
     return Spectrum(found.frequency[inside], found.amplitude[inside])
@@ -125,7 +148,7 @@ def _waterfall(result: Result, bearing: str) -> Spectrum | None:
     length = min(LENGTH, math.floor((time[-1] - time[0]) / turn / 2.0)) * turn
     if length < 2.0 * turn:
         return None
-    signal = probe_signals(*result.journal(bearing), probes_of(result)[:1])[0]
+    signal = probe_signals(result.journal(bearing), probes_of(result)[:1])[0]
     found = waterfall(time, signal * 1e6, length, slices=SLICES)
     inside = (found.frequency > 0.0) & (found.frequency <= 4.0 / turn)
     return Spectrum(found.frequency[inside], found.amplitude[:, inside], found.time)
@@ -143,7 +166,12 @@ def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, t
         "zmin": bottom,
         "zmax": top,
         "colorscale": "Viridis",
-        "colorbar": {"title": {"text": "µm"}, "tickvals": ticks, "ticktext": [f"{10.0**k:g}" for k in ticks], "thickness": 12},
+        "colorbar": {
+            "title": {"text": "µm"},
+            "tickvals": ticks,
+            "ticktext": [f"{10.0**k:g}" for k in ticks],
+            "thickness": 12,
+        },
         "hovertemplate": "%{x:.1f} Hz, %{y:.3f} s: 10^%{z:.2f} µm<extra></extra>",
     }  # fmt: skip
     shown = layout(xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **order_lines(result, 4.0))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -9,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 def envelope(values: ArrayLike, count: int) -> NDArray[np.intp]:
     """Indices of at most `count` samples that draw the same picture.
 
-    The signal is cut into even pieces, and of each the smallest and the largest sample stay, in their order in
-    time: no peak is lost, and none is made up.
+    The signal is cut into even pieces, and of each the smallest and the largest sample stay, in their order
+    in time: no peak is lost, and none is made up.
 
     Parameters
     ----------
@@ -25,6 +27,6 @@ def envelope(values: ArrayLike, count: int) -> NDArray[np.intp]:
     edges = np.linspace(0, x.size, (count - 2) // 2 + 1).astype(int)
     kept = {0, x.size - 1}
     low, high = np.where(np.isnan(x), np.inf, x), np.where(np.isnan(x), -np.inf, x)
-    for start, end in zip(edges[:-1], edges[1:], strict=True):
+    for start, end in pairwise(edges):
         kept |= {start + int(np.argmin(low[start:end])), start + int(np.argmax(high[start:end]))}
     return np.array(sorted(kept))

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 NAMED = {0.5: "½X", 1.0: "1X", 2.0: "2X", 3.0: "3X"}
-"""Orders that figures name: whirl and whip of a film and every rub in two turns, unbalance, bow and misfit."""
+"""Orders that figures name: whirl of a film, or a rub every second turn; unbalance; bow and misfit."""
 
 
 def order_amplitudes(time: ArrayLike, values: ArrayLike, speed: float, orders: Sequence[float]) -> Complex:
@@ -78,10 +78,11 @@ def whirl_of(x: complex, y: complex) -> Whirl:
     return Whirl((x + 1j * y) / 2.0, (np.conj(x) + 1j * np.conj(y)) / 2.0)
 
 
-def probe_signals(x: ArrayLike, y: ArrayLike, angles: Sequence[float]) -> Floats:
-    """What probes at angles from x towards y [rad] read, shape (probes, n): ``x cos a + y sin a``."""
+def probe_signals(motion: ArrayLike, angles: Sequence[float]) -> Floats:
+    """What probes at angles from x towards y [rad] make of x and y, shape (2, n): ``x cos a + y sin a``."""
     a = np.asarray(angles, dtype=float)[:, None]
-    return np.asarray(np.cos(a) * np.asarray(x, dtype=float) + np.sin(a) * np.asarray(y, dtype=float))
+    x, y = np.asarray(motion, dtype=float)
+    return np.asarray(np.cos(a) * x + np.sin(a) * y)
 
 
 def from_probes(signals: ArrayLike, angles: Sequence[float]) -> Floats:

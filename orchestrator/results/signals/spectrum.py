@@ -52,8 +52,8 @@ def evenly(time: ArrayLike, values: ArrayLike) -> tuple[float, Floats]:
 def spectrum(time: ArrayLike, values: ArrayLike, *, window: str = "hann") -> Spectrum:
     """Amplitude spectrum of a record without its mean.
 
-    The window's own gain is taken out (Heinzel, Ruediger and Schilling 2002, Eq. 24), so that a tone on a line
-    reads its amplitude; between two lines ``hann`` reads up to 15 % low and ``flattop`` 0.1 %.
+    The window's own gain is taken out (Heinzel, Ruediger and Schilling 2002, Eq. 24), so that a tone on a
+    line reads its amplitude; between two lines ``hann`` reads up to 15 % low and ``flattop`` 0.1 %.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def spectrum(time: ArrayLike, values: ArrayLike, *, window: str = "hann") -> Spe
         Name as in `scipy.signal.get_window`; ``boxcar`` for none.
     """
     step, even = evenly(time, values)
-    return Spectrum(np.fft.rfftfreq(even.size, step), _amplitudes(even, window))
+    return Spectrum(_lines(even.size, step), _amplitudes(even, window))
 
 
 def waterfall(
@@ -92,7 +92,11 @@ def waterfall(
     starts = np.unique(np.linspace(0, even.size - size, slices).round().astype(int))
     rows = np.stack([even[start : start + size] for start in starts])
     middle = np.asarray(time, dtype=float)[0] + step * (starts + size / 2)
-    return Spectrum(np.fft.rfftfreq(size, step), _amplitudes(rows, window), middle)
+    return Spectrum(_lines(size, step), _amplitudes(rows, window), middle)
+
+
+def _lines(size: int, step: float) -> Floats:
+    return np.asarray(np.fft.rfftfreq(size, step), dtype=np.float64)
 
 
 def _amplitudes(rows: Floats, window: str) -> Floats:

@@ -120,19 +120,23 @@ class _Bearing:
         if (contact := limits.contact) is not None and found.contact_max > self.contact_from:
             note = f"{100.0 * found.contact_share:.0f} % of the time, first at {found.contact_first:.4f} s"
             when, force = self._when("contact_force_max", phase), found.contact_max
-            yield held(contact, "solid contact", place, FORCE, force, 0.0, note=note, instant=when, trips=True)
+            yield held(
+                contact, "solid contact", place, FORCE, force, 0.0, note=note, instant=when, trips=True
+            )
         if (vibration := limits.shaft_vibration) is not None and "displacement" in self.record:
             yield self._vibration(phase, vibration)
 
     def _vibration(self, phase: Phase, limit: ShaftVibration) -> Verdict:
-        """Largest peak to peak over a revolution at the probes; of the lasting motion where nothing happens."""
+        """Largest peak to peak over a revolution at the probes; lasting where nothing happens."""
         a_b, b_c, c_d = limit.at(self.speed)
         window = phase.peak if phase.name.startswith("after") else phase.mean
         inside = window.mask(self.time)
-        motion = self.record["displacement"].sel(bearing=self.name).transpose("axis", "time").values[:, inside]
+        motion = (
+            self.record["displacement"].sel(bearing=self.name).transpose("axis", "time").values[:, inside]
+        )
         step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
         turn = round(2.0 * math.pi / abs(self.speed) / step) + 1
-        swing = running_peak_to_peak(probe_signals(*motion, limit.probes), turn)
+        swing = running_peak_to_peak(probe_signals(motion, limit.probes), turn)
         probe, at = np.unravel_index(int(np.argmax(swing)), swing.shape)
         value = float(swing[probe, at])
         zone = "ABCD"[sum(value > bound for bound in (a_b, b_c, c_d))]
@@ -179,7 +183,9 @@ def _stress(record: xr.Dataset, found: tuple[Phase, ...], limits: Limits) -> Ite
         when = float(time[inside][int(np.argmax(record["normal_stress_max"].values[inside]))])
         note = f"at z = {row.stress_position:.1f} m"
         place = phase.name, ""
-        yield held(limit, "normal stress", place, STRESS, row.stress_max, limit.largest, note=note, instant=when)
+        yield held(
+            limit, "normal stress", place, STRESS, row.stress_max, limit.largest, note=note, instant=when
+        )
 
 
 def grounds(verdicts: Iterable[Verdict]) -> str:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.scenario.file import train_folder
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.wording import choice
 
 FILE = "limits.toml"
 ATTRIBUTE = "limits"
@@ -44,7 +47,8 @@ class ShaftVibration(_Limit):
     def at(self, speed: float) -> tuple[float, float, float]:
         """The bounds of the zones A to D at a speed."""
         ab, bc, cd = (
-            float(np.interp(abs(speed), self.speed, zone)) for zone in (self.zone_ab, self.zone_bc, self.zone_cd)
+            float(np.interp(abs(speed), self.speed, zone))
+            for zone in (self.zone_ab, self.zone_bc, self.zone_cd)
         )
         return ab, bc, cd
 
@@ -126,6 +130,12 @@ def load_limits(own: Path | None = None) -> Limits:
     return _checked(tables, str(own or _USUAL))
 
 
+def own_file(scenario: Scenario) -> Path | None:
+    """The file of limits beside the files of a scenario's train, None where there is none."""
+    path = train_folder(scenario) / FILE
+    return path if path.is_file() else None
+
+
 def limits_of(text: str) -> Limits:
     """The limits that `to_text` wrote."""
     return Limits.model_validate_json(text)
@@ -152,12 +162,23 @@ def _checked(tables: Mapping[str, Any], source: str) -> Limits:
         lines = []
         for problem in error.errors():
             key = ".".join(str(step) for step in problem["loc"])
-            lines.append(f"{source}: {key} = {problem['input']!r}: {problem['msg']}")
+            if problem["type"] == "extra_forbidden":
+                lines.append(f"{source}: {key}: unknown; {_choice(problem['loc'])}")
+            else:
+                lines.append(f"{source}: {key} = {problem['input']!r}: {problem['msg']}")
         raise LimitsError("\n".join(lines)) from None
     problems = list(_shapes(limits))
     if problems:
         raise LimitsError("\n".join(f"{source}: {text}" for text in problems))
     return limits
+
+
+def _choice(place: tuple[int | str, ...]) -> str:
+    """What is allowed in place of an unknown key."""
+    if len(place) == 1:
+        return choice(str(place[0]), Limits.model_fields)
+    inner = next(a for a in get_args(Limits.model_fields[str(place[0])].annotation) if a is not type(None))
+    return choice(str(place[-1]), inner.model_fields)
 
 
 def _shapes(limits: Limits) -> list[str]:
@@ -170,5 +191,7 @@ def _shapes(limits: Limits) -> list[str]:
     if (f := limits.least_film) is not None and (
         len(f.least) != len(f.diameter) or {len(row) for row in f.least} != {len(f.sliding) + 1}
     ):
-        found.append("least_film: allowed are a row for each diameter, with one value more than sliding speeds")
+        found.append(
+            "least_film: allowed are a row for each diameter, with one value more than sliding speeds"
+        )
     return found

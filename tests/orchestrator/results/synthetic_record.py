@@ -17,6 +17,7 @@ NAMES = (
     *("LP3-front", "LP3-rear", "GEN-front", "GEN-rear", "EXC-rear"),
 )
 Z = (1.5, 8.5, 11.5, 20.5, 22.5, 31.5, 33.5, 42.5, 46.0, 61.0, 67.0)
+CLEARANCE = 8.6e-4
 FORCE = np.array([0.5, 0.6, 1.5, 1.75, 1.8, 1.7, 1.75, 1.5, 1.6, 1.4, 0.2]) * 1e6
 
 
@@ -40,7 +41,7 @@ def train() -> Train:
             diameter = (1.9 if body == "HP" else 2.2) + (0 if body == "HP" else 0.5 * abs(j - 4) / 3)
             wheels.append(Wheel(f"{body}-{j}", int(np.argmin(abs(edges - z))), 2e4, 1e4, 6e3, diameter))
     bearings = [
-        BearingSeat(name, int(np.argmin(abs(edges - z))), 0.8, 0.64, 8.6e-4, 0.0242)
+        BearingSeat(name, int(np.argmin(abs(edges - z))), 0.8, 0.64, CLEARANCE, 0.0242)
         for name, z in zip(NAMES, Z, strict=True)
     ]
     couplings = [Coupling(f"C{z:.0f}", int(np.argmin(abs(edges - z)))) for z in (10, 21.5, 32.5, 44.2, 62.5)]
@@ -103,7 +104,16 @@ def record(
     scalar = ("time", "bearing")
     size = np.hypot(force[..., 0], force[..., 1])
     jitter = 1 + 0.12 * rng.random(size.shape) * beat[:, None] * (depth == "v1")
+    journal = 0.5 * CLEARANCE * (np.array([0.6, -0.8]) + 0.9 * swing[:, None, :] * near)
+    seats = {"diameter": (0.8, "m"), "width": (0.64, "m"), "clearance": (CLEARANCE, "m")}
+    seats |= {"viscosity": (0.0242, "Pa s"), "roughness": (3e-6, "m")}
     variables = {
+        "displacement": ((*scalar, "axis"), journal),
+        "offset": (("bearing", "axis"), np.zeros((len(NAMES), 2))),
+        **{
+            f"bearing_{name}": (("bearing",), np.full(len(NAMES), value))
+            for name, (value, _) in seats.items()
+        },
         "force": (("time", "bearing", "axis"), force),
         "moment": (("time", "bearing", "axis"), moment),
         "least_gap": (scalar, gap),
@@ -133,6 +143,7 @@ def record(
         "sommerfeld": "1",
         "stress": "Pa",
     }
+    units |= {f"bearing_{name}": unit for name, (_, unit) in seats.items()}
     variables = {
         name: (dims, values, {"units": units.get(name, "m"), "long_name": name.replace("_", " ")})
         for name, (dims, values) in variables.items()

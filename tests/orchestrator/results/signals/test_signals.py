@@ -48,7 +48,7 @@ def test_the_lines_at_zero_and_at_half_the_sampling_rate_are_not_doubled():
     [("hann", [0.5, 0.5]), ("flattop", [0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368])],
 )
 def test_a_tone_between_two_lines_reads_what_the_window_leaves_of_it(window, cosines):
-    """Transform of sum (-1)^k a_k cos(2 pi k n / N) half a line off: sinc(1/2) sum (-1)^k a_k d2/(d2 - k2) / a_0."""
+    """Of sum (-1)^k a_k cos(2 pi k n / N) half a line off: sinc(1/2) sum (-1)^k a_k d2/(d2 - k2) / a_0."""
     left = sum((-1) ** k * a * 0.25 / (0.25 - k * k) for k, a in enumerate(cosines)) / cosines[0]
     tone = np.cos(2 * np.pi * 200.5 / (1600 * STEP) * TIME)
     assert spectrum(TIME, tone, window=window).amplitude.max() == pytest.approx(np.sinc(0.5) * left, rel=1e-4)
@@ -72,7 +72,9 @@ def test_orders_come_out_with_amplitude_and_phase_from_any_span_and_from_uneven_
 @pytest.mark.parametrize("inclination", [-1.2, 0.0, 0.7])
 @pytest.mark.parametrize("minor", [-30e-6, 30e-6])
 def test_an_ellipse_gives_its_half_axes_its_inclination_and_its_sense(inclination, minor):
-    turn = np.exp(1j * inclination) * (90e-6 * np.cos(SPEED * TIME + 0.4) + 1j * minor * np.sin(SPEED * TIME + 0.4))
+    turn = np.exp(1j * inclination) * (
+        90e-6 * np.cos(SPEED * TIME + 0.4) + 1j * minor * np.sin(SPEED * TIME + 0.4)
+    )
     x, y = order_amplitudes(TIME, np.stack([turn.real, turn.imag], axis=-1), SPEED, [1.0])[0]
     orbit = whirl_of(x, y)
     assert orbit.major == pytest.approx(90e-6, rel=1e-6)
@@ -83,7 +85,7 @@ def test_an_ellipse_gives_its_half_axes_its_inclination_and_its_sense(inclinatio
 def test_probes_read_their_direction_and_give_the_motion_back():
     x, y = 50e-6 * np.cos(SPEED * TIME), 20e-6 * np.sin(SPEED * TIME)
     angles = np.radians([45.0, 135.0, 200.0])
-    read = probe_signals(x, y, angles)
+    read = probe_signals([x, y], angles)
     # in an ellipse that lies along x and y, a probe at a reads the amplitude sqrt(a^2 cos^2 + b^2 sin^2)
     amplitude = abs(order_amplitudes(TIME, read.T, SPEED, [1.0])[0])
     expected = np.hypot(50e-6 * np.cos(angles), 20e-6 * np.sin(angles))
@@ -95,7 +97,9 @@ def test_peak_to_peak_of_each_revolution():
     beat = (1.0 + 0.5 * np.sin(SPEED / 10 * TIME)) * np.cos(SPEED * TIME)
     found = running_peak_to_peak(beat, 80)
     assert found.max() == pytest.approx(np.ptp(beat), rel=2e-2)
-    assert running_peak_to_peak(3e-6 * np.cos(SPEED * TIME), 81)[80:-80].min() == pytest.approx(6e-6, rel=1e-6)
+    assert running_peak_to_peak(3e-6 * np.cos(SPEED * TIME), 81)[80:-80].min() == pytest.approx(
+        6e-6, rel=1e-6
+    )
 
 
 def test_the_waterfall_of_a_chirp_climbs_along_its_frequency():

@@ -1,0 +1,68 @@
+"""``bladeloss report``: from folders of results to a page that says what they mean."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+
+from orchestrator.report.facts import conclusion
+from orchestrator.report.library import require_library
+from orchestrator.report.source import ReportError, load_results
+from orchestrator.report.write import FILE, write_report
+from orchestrator.results.verdicts.limits import load_limits
+
+
+@dataclass(frozen=True)
+class ReportRequest:
+    """What the command line asks for.
+
+    Attributes
+    ----------
+    results : sequence of Path
+        Folders of runs.
+    out : Path or None
+        The page; None: ``report.html`` in the folder of a single run, or else in the current one.
+    bearing : str or None
+        That the page opens with; None: the one with the worst verdict.
+    limits : Path or None
+        Limits in place of those that the runs were given.
+    """
+
+    results: Sequence[Path]
+    out: Path | None = None
+    bearing: str | None = None
+    limits: Path | None = None
+
+    @property
+    def file(self) -> Path:
+        """Where the page goes."""
+        if self.out is not None:
+            return self.out
+        first = self.results[0]
+        folder = first if first.is_dir() else first.parent
+        return folder / FILE if len(self.results) == 1 else Path(FILE)
+
+
+def run(request: ReportRequest, console: Console) -> int:
+    """Write the report and say what it concludes.
+
+    Raises
+    ------
+    OrchestratorError
+        Results that are none, limits that cannot be read, no plotting library.
+    """
+    require_library()
+    if request.file.is_dir():
+        raise ReportError(f"{request.file}: is a folder; --out takes the file of the page, such as {FILE}")
+    limits = None if request.limits is None else load_limits(request.limits)
+    results = load_results(request.results, limits)
+    path = write_report(results, request.file, request.bearing)
+    for result in results:
+        action, reasons = conclusion(result)
+        console.print(f"{result.name} - {action}: {reasons}", highlight=False, markup=False, soft_wrap=True)
+    size = path.stat().st_size / 1e6
+    console.print(f"\nReport in {path} ({size:.1f} MB)", highlight=False, markup=False, soft_wrap=True)
+    return 0
