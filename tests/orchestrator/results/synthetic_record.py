@@ -73,8 +73,8 @@ def record(
     grown = np.where(t > since, 1 - np.exp(-np.maximum(t - since, 0) / 0.08), 0.0)
     beat = grown * (1 + 0.3 * np.cos(2 * np.pi * 1.25 * np.where(t > since, t - since, 0)))
     angle = SPEED * t
-    violent = {"v1": 1.0, "v2": 0.45, "v3": 0.5}[depth]
-    gap_mean = {"v1": 100e-6, "v2": 115e-6, "v3": 130e-6}[depth]
+    violent = {"v1": 1.0, "v2": 0.45, "v3": 0.5}.get(depth, 0.5)
+    gap_mean = {"v1": 100e-6, "v2": 115e-6, "v3": 130e-6}.get(depth, 130e-6)
     shape = np.exp(-(((np.asarray(Z) - 22.5) / 14.0) ** 2))
     near = shape[None, :, None]
     wave = np.stack([np.cos(angle), np.sin(angle)], axis=1)
@@ -83,7 +83,7 @@ def record(
     swing = 0.05 * wave + beat[:, None] * violent * (0.7 * wave + 0.5 * half + rough)
     force = np.array([0.0, 1.0])[None, None, :] * FORCE[None, :, None] + 1.8e6 * swing[:, None, :] * near
     moment = (0.03e6 * wave + 1.6e6 * beat[:, None] * (half + rough))[:, None, :] * near * (depth == "v1")
-    lowest = {"v1": 1.05, "v2": 0.8, "v3": 0.5}[depth]
+    lowest = {"v1": 1.05, "v2": 0.8, "v3": 0.5}.get(depth, 0.5)
     ripple = 0.5 + 0.5 * np.cos(angle + 0.3) * np.where(grown > 0, np.cos(angle / 2) ** 2, 1)
     gap = (
         gap_mean

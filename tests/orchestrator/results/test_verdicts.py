@@ -84,7 +84,7 @@ def test_vibration_is_the_largest_peak_to_peak_at_a_probe_in_its_zone(verdicts, 
     assert before.note.startswith("zone A of 100/200/320 µm, probe at ")
     after = one(verdicts, "shaft vibration, peak to peak", "after", "LP2-front")
     motion = (
-        record["displacement"].sel(bearing="LP2-front", time=slice(1.0, None)).values @ [math.sqrt(0.5)] * 2
+        record["displacement"].sel(bearing="LP2-front", time=slice(1.0, None)).values @ np.full(2, math.sqrt(0.5))
     )
     assert after.value <= np.ptp(motion) * 1.5
     assert "zone D" in after.note
