@@ -7,7 +7,6 @@ import pytest
 import xarray as xr
 from matplotlib.collections import PolyCollection
 
-from bearing_fmu import depths
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
 from orchestrator.results.figures.deformation import dynamic_deflection, worst_instant
@@ -21,6 +20,7 @@ from orchestrator.results.figures.write import write_figures
 from tests.orchestrator.results import synthetic_record
 
 BEARING = "LP2-front"
+DEPTHS = ("v1", "v2", "v3")
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def train():
 
 @pytest.fixture(scope="module")
 def records():
-    return [synthetic_record.record(depth) for depth in depths.names()]
+    return [synthetic_record.record(depth) for depth in DEPTHS]
 
 
 @pytest.fixture(scope="module")
@@ -114,14 +114,14 @@ def test_several_runs_share_scales_and_keep_their_colours(records):
     grid = panel_axes(vibration_amplitude(records))
     assert len(grid) == 6
     assert len({axes.get_ylim() for axes in grid}) == 1
-    for axes, depth in zip(grid[::2], ("v1", "v2", "v3"), strict=True):
+    for axes, depth in zip(grid[::2], DEPTHS, strict=True):
         assert line(axes, style.depth_name(depth)).get_color() == style.colour_of(depth)
         assert axes.get_title(loc="left").startswith(f"{depth.upper()}: ")
     forces = panel_axes(forces_and_moments(records))
     assert len(forces) == 8
     assert len({axes.get_ylim() for axes in forces[:4]}) == 1
-    near = [line(forces[3], style.depth_name(depth)).get_color() for depth in depths.names()]
-    assert near == [style.colour_of(depth) for depth in depths.names()]
+    near = [line(forces[3], style.depth_name(depth)).get_color() for depth in DEPTHS]
+    assert near == [style.colour_of(depth) for depth in DEPTHS]
 
 
 def test_all_data_are_inside_the_axes(records):
