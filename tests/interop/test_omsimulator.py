@@ -97,9 +97,10 @@ def test_the_rotor_starts_on_nothing_that_it_does_not_name(host):
             changes[v.name] = 1.01 * float(v.start) + (1e-5 if ".start." in v.name else 1e-2)
     for name, value in changes.items():
         for other, before, after in zip(names, plain, values(**{name: value}), strict=True):
-            rounding = 1e-9 * float(unit.variables[other].nominal or 1.0)
-            assert name in named[other] or after == pytest.approx(before, rel=1e-9, abs=rounding), (
-                name,
-                other,
-            )
+            if name in named[other]:
+                continue
+            if unit.variables[other].type == "Real":
+                rounding = 1e-9 * float(unit.variables[other].nominal or 1.0)
+                before = pytest.approx(before, rel=1e-9, abs=rounding)
+            assert after == before, (name, other)
     unit.slave.freeInstance()
