@@ -58,7 +58,7 @@ class RotorSlave(UnitSlave):
         """Build the shaft of the parameters; loads and positions follow from train and gravity."""
         train, gravity = self._train, self._value("gravity")
         if gravity < 0.0:
-            raise UnitError(f"gravity = {gravity} m/s2, allowed is >= 0; it acts against y")
+            raise UnitError(f"gravity = {gravity} m/s2, allowed is >= 0; the train has its direction")
         loads = target_loads(train, gravity)
         for i, seat in enumerate(train.bearings, 1):
             self.values[self.layout[f"bearing[{i}].load"]] = loads[i - 1]

@@ -18,7 +18,12 @@ PREFIX = "bladeloss_rotor_"
 
 def file_name(train: Train) -> str:
     """File name of the rotor FMU of a train."""
-    return "rotor.fmu" if train.name == DEFAULT_TRAIN else f"rotor_{train.name}.fmu"
+    return "rotor.fmu" if train.name == DEFAULT_TRAIN else f"rotor_{_identifier(train)}.fmu"
+
+
+def _identifier(train: Train) -> str:
+    """Its name with an underscore for whatever FMI has none in identifiers."""
+    return re.sub(r"[^A-Za-z0-9_]", "_", train.name)
 
 
 def rotor_recipe(train: Train, starts: Mapping[str, port.Value] | None = None) -> Recipe:
@@ -30,17 +35,10 @@ def rotor_recipe(train: Train, starts: Mapping[str, port.Value] | None = None) -
         The train.
     starts : mapping, optional
         Start values by variable name in place of those of the train.
-
-    Raises
-    ------
-    ValueError
-        If the train's name is none for a file.
     """
-    if not re.fullmatch(r"[A-Za-z0-9_]+", train.name):
-        raise ValueError(f"train name {train.name!r}: allowed are letters, digits and underscores")
     return Recipe(
         file_name=file_name(train),
-        name=f"{PREFIX}{train.name}",
+        name=f"{PREFIX}{_identifier(train)}",
         description=f"Rotor of the train {train.name}: {train.length:g} m, {len(train.bearings)} bearings.",
         facade="rotor_fmu.facade",
         facade_class="RotorSlave",

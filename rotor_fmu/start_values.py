@@ -22,8 +22,6 @@ _SPRING = 1e4
 
 _ROUNDS = 4
 
-_GRAVITY = 9.80665
-
 
 def default_starts(train: Train) -> dict[str, port.Value]:
     """Return start values by variable name.
@@ -39,9 +37,9 @@ def default_starts(train: Train) -> dict[str, port.Value]:
         Speed, forces, journal positions and 1X orbit, unbalances.
     """
     model = assemble(train)
-    static, bearings = condense_static(model, _GRAVITY), len(train.bearings)
+    static, bearings = condense_static(model, train.weight), len(train.bearings)
     loads = np.zeros((bearings, 4))
-    loads[:, 1] = target_loads(train, _GRAVITY)
+    loads[:, :2] = np.outer(target_loads(train), train.upwards)
     springs = np.tile(_SPRING * np.eye(4), (bearings, 1, 1))
     shape = np.zeros((bearings, 4))
     for _ in range(_ROUNDS):  # the springs' share goes into F0 until it has vanished
@@ -51,8 +49,9 @@ def default_starts(train: Train) -> dict[str, port.Value]:
     whirl = unbalance_response(model, train.speed, supports, np.array(train.nominal_unbalance) * phases)
     orbit = whirl.shape[model.bearing_dofs]
     parts = {"": shape, "_cos": orbit.real, "_sin": -orbit.imag}
-    starts: dict[str, port.Value] = {port.SPEED: train.speed}
+    starts: dict[str, port.Value] = {port.SPEED: train.speed, "gravity": train.weight}
     for i in range(bearings):
+        starts[port.at_bearing(i + 1, "F0.Fx")] = float(loads[i, 0])
         starts[port.at_bearing(i + 1, "F0.Fy")] = float(loads[i, 1])
         for part, positions in parts.items():
             for name, value in zip(port.POSITION, positions[i], strict=True):

@@ -118,11 +118,11 @@ with FmuStore() as store:
     system = assemble(scenario, train, Path("fmus"), store)
     system.set_speed(train.speed)
     loads = np.array([8.0e4, 5.0e4])
-    found = aligned_positions(system, loads, clearances)
+    found = aligned_positions(system, np.column_stack([0.0 * loads, loads]), clearances)
     expected = -np.linalg.solve(added.STIFFNESS, np.array([0.0 * loads, loads])).T
     error, size = (np.linalg.norm(x, axis=1) for x in (found[:, :2] - expected, expected))
     assert np.all(size < clearances) and np.all(error < 20 * ALIGNED * size), (error, size)
-    start = find_start(system, train.bearings, train.speed, train.nodes)
+    start = find_start(system, train, train.speed)
     system.close()
 relative = (start.static - start.offsets)[:, :2]
 force = -(added.STIFFNESS @ relative.T).T

@@ -18,7 +18,15 @@ def at_bearing(index: int, name: str) -> str:
 
 
 _ROTOR_PARAMETERS: tuple[Variable, ...] = (
-    Variable("gravity", "parameter", "m/s2", "gravity, against y", 9.80665, minimum=0.0, nominal=10.0),
+    Variable(
+        "gravity",
+        "parameter",
+        "m/s2",
+        "gravity; against y, or as the train says",
+        9.80665,
+        minimum=0.0,
+        nominal=10.0,
+    ),
     Variable(
         "reduction", "parameter", "", "irs, irs-plain, guyan, craig-bampton, none", "irs", kind="String"
     ),
@@ -86,7 +94,7 @@ def _seat(i: int, name: str) -> Iterator[Variable]:
             described = f"{name}: journal at the start, {text} {pos}"
             start_name = f"bearing[{i}].start.{pos}{part}"
             yield Variable(start_name, "parameter", unit, described, 0.0, nominal=1e-4)
-    load, on = f"{name}: static target load", ("gravity",)
+    load, on = f"{name}: static target load, against gravity", ("gravity",)
     yield Variable(f"bearing[{i}].load", "calculatedParameter", "N", load, nominal=1e6, starts_on=on)
     yield _position(f"bearing[{i}].z", name)
 

@@ -63,7 +63,7 @@ class FolderUnits:
 
     def find_start(self, system: System) -> Start:
         """Search the equilibrium of the train on its films."""
-        return find_start(system, self.train.bearings, self.speed, self.train.nodes)
+        return find_start(system, self.train, self.speed)
 
     def foreign(self, scenario: Scenario) -> Mapping[str, Path]:
         """Return the FMUs that the scenario names for its bearings."""

@@ -116,6 +116,10 @@ def execute(case: Case, progress: Progress | None = None, execution: Execution |
     return replace(result, record=result.record.assign_attrs(case.attributes))
 
 
+_LEAST_LOAD = 1.0
+"""In N, by which forces are measured at least where bearings carry nothing at the start."""
+
+
 def default_threads(scenario: Scenario, train: Train) -> int:
     """Two threads where the films take long enough for it to pay, and there are processors; else one."""
     quick = {depth.name for depth in depths.depths() if depth.quick}
@@ -170,7 +174,7 @@ class _TimeLoop:
         self._course = Course(scenario.end, scenario.step, scenario.tolerance, events)
         stride = max(1, round(scenario.record.interval / scenario.step))
         self._recorder = Recorder(system, train.nodes, self._course.steps, stride)
-        load = float(np.abs(start.loads).mean())
+        load = float(np.abs(start.loads).mean()) or _LEAST_LOAD
         system.set_scale(load, [seat.width for seat in train.bearings])
         self._ledger = Ledger(system) if scenario.ledger else None
         self._keepers: dict[str, Keeper] = {"record": self._recorder}

@@ -62,7 +62,7 @@ def on_running_films(scenario: Scenario, train: Train, fmus: Path) -> Iterator[S
         # Statics go through the unreduced shaft; the quickest reduction will do for the rest.
         system = assemble(scenario.model_copy(update={"reduction": "guyan"}), train, fmus, store)
         try:
-            find_start(system, train.bearings, train.speed, train.nodes)
+            find_start(system, train, train.speed)
             yield system
         except UnitError as error:
             raise EquilibriumError(str(error)) from None

@@ -89,7 +89,10 @@ def _linear_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuS
         loads = dict(zip((seat.name for seat in train.bearings), target_loads(train), strict=True))
         for seat in linear:
             values = port.coefficient_values(seat.coefficients) if seat.coefficients else {}
-            found[seat.name] = {"static.Fy": float(loads[seat.name]), **values}
+            # At a height that is given the springs carry what they carry there.
+            load = float(loads[seat.name]) if seat.height is None else 0.0
+            along = zip(port.STATIC_WRENCH, train.upwards, strict=False)
+            found[seat.name] = {**{name: load * share for name, share in along}, **values}
     if not linearised(scenario, train):
         return found
     films = {seat.name: scenario.linear_from for seat in linearised(scenario, train)}
@@ -98,7 +101,7 @@ def _linear_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuS
     changes = {"depth": depth, "depth_at": {**scenario.depth_at, **given, **films}}
     system = assemble(scenario.model_copy(update=changes), train, fmus, store)
     try:
-        start = find_start(system, train.bearings, train.speed, train.nodes)
+        start = find_start(system, train, train.speed)
         names = (*port.STATIC_WRENCH, *port.STATIC_POSITION, *port.STIFFNESS, *port.DAMPING)
         stiffness, damping = np.split(system.tangents, 2, axis=2)
         positions = system.bearing_inputs[:, :4] - start.offsets

@@ -74,7 +74,7 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
         made = list(parts_in_folder(scenario, train, fmus, store))
         system = join(made, scenario, train.speed, fmus)
         try:
-            start = find_start(system, train.bearings, train.speed, train.nodes)
+            start = find_start(system, train, train.speed)
             parts = _Parts(scenario, train, {part.name: part.parameters for part in made}, Path(temporary))
             components = tuple(parts.components(system, start))
         finally:

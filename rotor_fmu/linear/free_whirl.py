@@ -171,8 +171,7 @@ def _plane(shaft: ShaftModel | ReducedShaft, speed: float) -> tuple[Matrices, Ar
         polar, recovery = shaft.G[here, half:], shaft.T[0::4, here]
     else:
         mass, stiffness, polar = shaft.plane_mass, shaft.plane_stiffness, shaft.plane_polar
-        alpha, beta = shaft.rayleigh
-        damping, recovery = alpha * mass + beta * stiffness, None
+        damping, recovery = shaft.plane_damping, None
     turning = sp.csc_array(damping - 1j * speed * polar)
     return (sp.csc_array(mass), turning, sp.csc_array(stiffness)), recovery
 

@@ -212,10 +212,14 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
     M, K = (sl.block_diag(A, A) for A in (symmetric(mass), symmetric(strain.T @ strain)))
     polar, zero = symmetric(polar), np.zeros_like(polar)
     alpha, beta = model.rayleigh
+    damping = alpha * M + beta * K
+    if model.plane_dampers is not None:
+        dampers = symmetric(V.T @ (model.plane_dampers @ V))
+        damping = damping + sl.block_diag(dampers, dampers)
     T = np.hstack([plane_x(model.nodes) @ V, plane_y(model.nodes) @ V])
     return ReducedShaft(
         M=M,
-        D=alpha * M + beta * K,
+        D=damping,
         G=np.block([[zero, polar], [-polar, zero]]),
         K=K,
         T=T,

@@ -1,5 +1,7 @@
 """Timoshenko beam elements of circular cross-section, in one bending plane.
 
+Plain cylinders here, all at once; whatever else a shoulder may be in `rotor_fmu.shaft.section`.
+
 The shape functions are the static solution of the element without load between
 its nodes (Przemieniecki 1968, section 5.6; Friswell, Penny, Garvey, Lees 2010,
 section 5.4.4), so that stiffness and nodal statics are exact for any length and
@@ -14,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor_fmu.shaft.section import joint_element, section_element
 from rotor_fmu.train.train import Shoulder
 
 Array = NDArray[np.float64]
@@ -38,6 +41,10 @@ class ElementMatrices:
         Polar inertia along the element, weighted by the slopes of the cross-sections.
     weight : ndarray, (e, 4)
         Consistent load of a distributed force equal to the mass, i.e. gravity per unit of g.
+    damping : ndarray, (e, 4, 4)
+        Of the joints of elastic couplings.
+    joint : ndarray of bool, (e,)
+        Which elements are joints.
     """
 
     stiffness: Array
@@ -45,6 +52,8 @@ class ElementMatrices:
     mass: Array
     polar: Array
     weight: Array
+    damping: Array
+    joint: NDArray[np.bool_]
 
 
 def shear_coefficient(diameter_ratio: Array, poisson_ratio: Array) -> Array:
@@ -81,20 +90,49 @@ def element_matrices(shoulders: Sequence[Shoulder]) -> ElementMatrices:
     ElementMatrices
         In the plane's order (deflection, slope) front, (deflection, slope) rear.
     """
-    E, nu, rho, A, second_moment, L, ratio = np.array(
-        [
-            (
-                s.material.youngs_modulus,
-                s.material.poisson_ratio,
-                s.material.density,
-                s.area,
-                s.second_moment,
-                s.length,
-                s.inner_diameter / s.outer_diameter,
-            )
-            for s in shoulders
-        ]
-    ).T
+    plain = [shoulder for shoulder in shoulders if shoulder.plain]
+    elements = _plain_elements(plain)
+    if len(plain) == len(shoulders):
+        return elements
+    count, here = len(shoulders), np.array([shoulder.plain for shoulder in shoulders])
+    sizes = {"stiffness_root": (2, 4), "weight": (4,)}
+    names = ("stiffness", "stiffness_root", "mass", "polar", "weight", "damping")
+    every = {name: np.zeros((count, *sizes.get(name, (4, 4)))) for name in names}
+    for name, values in every.items():
+        values[here] = getattr(elements, name)
+    for k, shoulder in enumerate(shoulders):
+        if shoulder.plain:
+            continue
+        one = (
+            joint_element(shoulder.joint) if shoulder.joint else section_element(shoulder, shear_coefficient)
+        )
+        every["stiffness"][k], every["stiffness_root"][k] = one.root.T @ one.root, one.root
+        every["mass"][k], every["polar"][k] = one.mass + one.rotary, 2.0 * one.rotary
+        every["weight"][k], every["damping"][k] = one.weight, one.damping
+    joint = np.array([shoulder.joint is not None for shoulder in shoulders])
+    return ElementMatrices(**every, joint=joint)
+
+
+def _plain_elements(shoulders: Sequence[Shoulder]) -> ElementMatrices:
+    """Of plain cylinders."""
+    E, nu, rho, A, second_moment, L, ratio = (
+        np.array(
+            [
+                (
+                    s.material.youngs_modulus,
+                    s.material.poisson_ratio,
+                    s.material.density,
+                    s.area,
+                    s.second_moment,
+                    s.length,
+                    s.inner_diameter / s.outer_diameter,
+                )
+                for s in shoulders
+            ]
+        )
+        .reshape(-1, 7)
+        .T
+    )
     bending = E * second_moment
     shear = shear_coefficient(ratio, nu) * E / (2.0 * (1.0 + nu)) * A
     phi = 12.0 * bending / (shear * L**2)
@@ -120,7 +158,8 @@ def element_matrices(shoulders: Sequence[Shoulder]) -> ElementMatrices:
     rotary = (rho * second_moment * L)[:, None, None] * _gram(rotation)
     weight = (rho * A * L)[:, None] * np.einsum("p,epi->ei", _DXI, deflection)
     # Polar inertia of a circular section is twice the diametral one.
-    return ElementMatrices(stiffness, root, translational + rotary, 2.0 * rotary, weight)
+    undamped, joint = np.zeros_like(stiffness), np.zeros(len(L), dtype=np.bool_)
+    return ElementMatrices(stiffness, root, translational + rotary, 2.0 * rotary, weight, undamped, joint)
 
 
 def shape_functions(length: Array, phi: Array, xi: Array) -> tuple[Array, Array]:

@@ -16,6 +16,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.beam import element_matrices
+from rotor_fmu.shaft.massless import with_trace
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -31,7 +32,7 @@ class ShaftModel:
         Mass, Rayleigh damping, gyroscopic matrix (skew, to be multiplied by the speed) and stiffness.
     plane_mass, plane_stiffness, plane_polar : scipy.sparse.csr_array, (2 N, 2 N)
         The same in one plane, order (deflection, slope) a node; polar inertia of the cross-sections.
-    stiffness_root : scipy.sparse.csr_array, (2 N - 2, 2 N)
+    stiffness_root : scipy.sparse.csr_array, (2 N - 2, 2 N), less a row for each hinge
         R with R.T R = plane_stiffness.  Differences of displacements are taken before products: R q is exact
         to rounding where K q of a fine mesh is what large numbers leave over.
     z : ndarray, (N,)
@@ -41,9 +42,13 @@ class ShaftModel:
     wheel_dofs : ndarray of int, (n_w, 2)
         Degrees of freedom x, y of the wheels' nodes.
     gravity : ndarray, (n,)
-        Consistent gravity load per unit of g; it acts in -y [kg, kg m].
+        Consistent gravity load per unit of g, in the direction of the train's gravity [kg, kg m].
     rayleigh : tuple of float
         alpha [1/s] and beta [s].
+    plane_gravity : ndarray, (2 N,)
+        The same load in the plane in which gravity lies.
+    plane_dampers : scipy.sparse.csr_array, (2 N, 2 N), or None
+        What elastic couplings, which have dampers of their own, add to the Rayleigh damping of one plane.
     """
 
     M: sp.csr_array
@@ -59,6 +64,8 @@ class ShaftModel:
     wheel_dofs: NDArray[np.intp]
     gravity: Array
     rayleigh: tuple[float, float]
+    plane_gravity: Array
+    plane_dampers: sp.csr_array | None = None
 
     @property
     def nodes(self) -> int:
@@ -71,9 +78,11 @@ class ShaftModel:
         return 4 * len(self.z)
 
     @property
-    def plane_gravity(self) -> Array:
-        """Gravity load per unit of g in the y-z plane, order (deflection, slope) a node, (2 N,)."""
-        return plane_y(self.nodes).T @ self.gravity
+    def plane_damping(self) -> sp.csr_array:
+        """Damping in one plane, (2 N, 2 N)."""
+        alpha, beta = self.rayleigh
+        damping = alpha * self.plane_mass + beta * self.plane_stiffness
+        return damping if self.plane_dampers is None else sp.csr_array(damping + self.plane_dampers)
 
 
 def plane_x(nodes: int) -> sp.csr_array:
@@ -92,7 +101,7 @@ def assemble(train: Train) -> ShaftModel:
     Parameters
     ----------
     train : Train
-        The train; a shoulder becomes an element, a wheel a rigid disc on its node.
+        The train; a shoulder becomes an element, a wheel or lumped mass a rigid disc on its node.
 
     Returns
     -------
@@ -104,15 +113,20 @@ def assemble(train: Train) -> ShaftModel:
     discs, load = np.zeros((2, 2 * nodes)), np.zeros(2 * nodes)
     for k, weight in enumerate(elements.weight):
         load[2 * k : 2 * k + 4] -= weight
-    for wheel in train.wheels:
-        deflection, slope = 2 * wheel.node, 2 * wheel.node + 1
-        discs[0, deflection] += wheel.mass
-        discs[0, slope] += wheel.transverse_inertia
-        discs[1, slope] += wheel.polar_inertia
-        load[deflection] -= wheel.mass
+    for body in train.bodies:
+        deflection, slope = 2 * body.node, 2 * body.node + 1
+        discs[0, deflection] += body.mass
+        discs[0, slope] += body.transverse_inertia
+        discs[1, slope] += body.polar_inertia
+        load[deflection] -= body.mass
     mass = sp.csr_array(_assembled(elements.mass) + sp.diags_array(discs[0]))
     polar = sp.csr_array(_assembled(elements.polar) + sp.diags_array(discs[1]))
-    stiffness = _assembled(elements.stiffness)
+    stiffness, dampers = _assembled(elements.stiffness), None
+    if elements.joint.any():
+        # Rayleigh's damping is that of the shaft's material.
+        of_joints = np.where(elements.joint[:, None, None], elements.stiffness, 0.0)
+        dampers = _assembled(elements.damping - train.rayleigh_beta * of_joints)
+    mass = with_trace(mass, stiffness, train.mass)
 
     x, y = plane_x(nodes), plane_y(nodes)
     M = _both_planes(mass, x, y)
@@ -120,6 +134,11 @@ def assemble(train: Train) -> ShaftModel:
     # Angular momentum of the spin, Ip Ω (tilt_y, -tilt_x): its rate opposes the tilting in the other plane.
     G = sp.csr_array(x @ polar @ y.T - y @ polar @ x.T)
     D = sp.csr_array(train.rayleigh_alpha * M + train.rayleigh_beta * K)
+    if dampers is not None:
+        D = sp.csr_array(D + _both_planes(dampers, x, y))
+    root = _assembled(elements.stiffness_root)
+    stiff = abs(root).max(axis=1).toarray().ravel() > 0.0  # all rows but those of hinges
+    up_x, up_y = train.upwards
     at_bearings = np.array([b.node for b in train.bearings], dtype=np.intp)
     at_wheels = np.array([w.node for w in train.wheels], dtype=np.intp)
     return ShaftModel(
@@ -130,12 +149,14 @@ def assemble(train: Train) -> ShaftModel:
         plane_mass=mass,
         plane_stiffness=stiffness,
         plane_polar=polar,
-        stiffness_root=_assembled(elements.stiffness_root),
+        stiffness_root=root if stiff.all() else root[stiff],
         z=np.array(train.z),
         bearing_dofs=4 * at_bearings[:, None] + np.arange(4),
         wheel_dofs=4 * at_wheels[:, None] + np.arange(2),
-        gravity=y @ load,
+        gravity=up_y * (y @ load) + up_x * (x @ load),
         rayleigh=(train.rayleigh_alpha, train.rayleigh_beta),
+        plane_gravity=load,
+        plane_dampers=dampers,
     )
 
 

@@ -8,36 +8,42 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
+from rotor_fmu.shaft.beam import element_matrices
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
 
 
-def target_loads(train: Train, gravity: float = 9.80665) -> Array:
-    """Static bearing loads of a train aligned to its catenary.
+def target_loads(train: Train, gravity: float | None = None) -> Array:
+    """Static bearing loads of a train, aligned to its catenary or with its bearings at given heights.
 
-    Each rotor between couplings is in balance under its weight, its bearings and the shear in its
-    couplings, with no moment in the couplings: their faces are parallel before they are bolted.
-    Where that leaves a choice, the shears are the least in the sense of least squares.  A `load` given
-    for a bearing is kept; if balance then asks for moments in couplings, they too are the least.
+    For the heights see `loads_at_heights`.  On the catenary each rotor between couplings is in balance under
+    its weight, its bearings and the shear in its couplings, with no moment in the couplings: their faces are
+    parallel before they are bolted.  Where that leaves a choice, the shears are the least in the sense of
+    least squares.  A `load` given for a bearing is kept; if balance then asks for moments in couplings, they
+    too are the least.
 
     Parameters
     ----------
     train : Train
         The train.
-    gravity : float
-        g [m/s2].
+    gravity : float, optional
+        g [m/s2]; default that of the train.
 
     Returns
     -------
     ndarray, (n_b,)
-        Forces of the bearings on the shaft in +y [N]; with weight they balance in force and moment.
+        Forces of the bearings on the shaft against gravity [N]; with weight they balance in force and moment.
+        Negative where the shaft would lift off: it is held down.
 
     Raises
     ------
     ValueError
         If the loads given leave no balance.
     """
+    gravity = train.weight if gravity is None else gravity
+    if any(seat.height is not None for seat in train.bearings):
+        return loads_at_heights(train, gravity)
     z = np.array(train.z)
     seats, joints = train.bearings, train.couplings
     free = [i for i, b in enumerate(seats) if b.load is None]
@@ -45,7 +51,7 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
     supports = np.zeros((len(given), len(free)))
     shears, moments = (np.zeros((len(given), len(joints))) for _ in range(2))
     span = train.length
-    for r, (first, last) in enumerate(train.sections):
+    for r, (first, _) in enumerate(train.sections):
         force, moment = 2 * r, 2 * r + 1
         origin = z[first]
         for i, seat in enumerate(seats):
@@ -56,13 +62,13 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
                 else:
                     given[[force, moment]] += np.array([1.0, arm]) * (seat.load or 0.0)
         for j, joint in enumerate(joints):
-            if joint.node in (first, last):
-                sign = 1.0 if joint.node == last else -1.0
+            if r in (j, j + 1):
+                sign = 1.0 if r == j else -1.0
                 shears[[force, moment], j] = sign, sign * (z[joint.node] - origin) / span
                 moments[moment, j] = sign
     solution = _least_by_rank([moments, shears, supports], weight - given)
     residual = moments @ solution[0] + shears @ solution[1] + supports @ solution[2] + given - weight
-    if np.abs(residual).max() > 1e-9 * np.abs(weight).max():
+    if np.abs(residual).max() > 1e-9 * max(np.abs(weight).max(), np.abs(given).max()):
         fixed = ", ".join(f"{b.name} {b.load:g} N" for b in seats if b.load is not None) or "none"
         raise ValueError(
             f"train {train.name}: no static balance with {len(free)} free bearing loads (given: {fixed}); "
@@ -73,14 +79,52 @@ def target_loads(train: Train, gravity: float = 9.80665) -> Array:
     return loads
 
 
+def loads_at_heights(train: Train, gravity: float) -> Array:
+    """Static bearing loads of a train whose bearings stand at given heights over a straight line.
+
+    A journal sinks in its film; here, before the film is known, as on a spring that the mean load deflects by
+    the clearance. The start of a run finds how far it sinks.
+
+    Parameters
+    ----------
+    train : Train
+        With the heights of all bearings.
+    gravity : float
+        g [m/s2].
+
+    Returns
+    -------
+    ndarray, (n_b,)
+        As from `target_loads`.
+    """
+    seats, elements = train.bearings, element_matrices(train.shoulders)
+    mean = max(gravity, 1.0) * train.mass / len(seats)
+    springs = np.array([mean / seat.clearance for seat in seats])
+    heights = np.array([seat.height or 0.0 for seat in seats])
+    count = 2 * train.nodes
+    band, load = np.zeros((4, count)), np.zeros(count)
+    for k, (stiffness, weight) in enumerate(zip(elements.stiffness, elements.weight, strict=True)):
+        for i, j in zip(*np.tril_indices(4), strict=True):
+            band[i - j, 2 * k + j] += stiffness[i, j]
+        load[2 * k : 2 * k + 4] -= gravity * weight
+    for body in train.bodies:
+        load[2 * body.node] -= gravity * body.mass
+    at = 2 * np.array([seat.node for seat in seats])
+    np.add.at(band[0], at, springs)
+    np.add.at(load, at, springs * heights)
+    return np.asarray(springs * (heights - sl.solveh_banded(band, load, lower=True)[at]))
+
+
 def _section_weights(train: Train, gravity: float) -> Array:
     """Weight and its moment about the front end over the train's length, section by section."""
     z = np.array(train.z)
     result = []
     for r, (first, last) in enumerate(train.sections):
         parts = [
-            (s.mass, (z[k] + z[k + 1]) / 2.0) for k, s in enumerate(train.shoulders) if first <= k < last
-        ] + [(w.mass, z[w.node]) for w in train.wheels if train.section_of(w.node) == r]
+            (s.mass, (z[k] + z[k + 1]) / 2.0 if s.plain else z[k] + s.centroid)
+            for k, s in enumerate(train.shoulders)
+            if first <= k < last
+        ] + [(body.mass, z[body.node]) for body in train.bodies if train.section_of(body.node) == r]
         mass, position = np.array(parts).T
         result += [gravity * mass.sum(), gravity * (mass @ (position - z[first])) / train.length]
     return np.array(result)

@@ -46,7 +46,7 @@ class BendingStress:
         displacement : ndarray, (n,)
             Of the unreduced shaft, static sag included.
         gravity : float
-            g [m/s2], against y.
+            g [m/s2], in the direction of the train's gravity.
 
         Returns
         -------
@@ -90,10 +90,12 @@ def bending_stress(train: Train) -> BendingStress:
     side = sp.vstack([in_front, behind])
     operator = sp.vstack([side @ plane_x(nodes).T, side @ plane_y(nodes).T])
     weight = np.zeros((4, nodes))
-    weight[2, 1:] = elements.weight[:, 3]
-    weight[3, :-1] = -elements.weight[:, 1]
+    # In the plane of x, then of y; gravity acts against the unit vector upwards.
+    for plane, up in zip((weight[:2], weight[2:]), train.upwards, strict=True):
+        plane[0, 1:] = up * elements.weight[:, 3]
+        plane[1, :-1] = up * -elements.weight[:, 1]
     modulus = np.full((2, nodes), np.inf)
-    modulus[0, 1:] = modulus[1, :-1] = [s.section_modulus for s in train.shoulders]
+    modulus[1, :-1], modulus[0, 1:] = zip(*(s.section_moduli for s in train.shoulders), strict=True)
     return BendingStress(sp.csr_array(operator), weight.ravel(), modulus)
 
 

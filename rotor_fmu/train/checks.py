@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -9,9 +10,18 @@ from typing import Any
 from pydantic import ValidationError
 
 from rotor_fmu.train.film_capacity import ECCENTRICITY, most_load
-from rotor_fmu.train.schema import BearingEntry, Placed, WheelEntry, explain
+from rotor_fmu.train.joints import Nodes
+from rotor_fmu.train.schema import (
+    BearingEntry,
+    CouplingEntry,
+    MassEntry,
+    Placed,
+    TrainToml,
+    WheelEntry,
+)
 from rotor_fmu.train.toml_source import Problem
 from rotor_fmu.train.train import Train
+from rotor_fmu.train.wording import explain
 
 POSITION_TOLERANCE = 1e-6
 """How far z may be off the boundary of two shoulders [m]."""
@@ -22,8 +32,6 @@ RELATIVE_CLEARANCE = (1e-4, 1e-2)
 SOFTEST_CONTACT = 1e6
 """Least contact modulus that is not zero [Pa]; below it the unit is mistaken."""
 
-Nodes = Mapping[str, Sequence[int]]
-
 
 def nearest_node(shaft: Train, z: float) -> int:
     """Node of the boundary of shoulders nearest to an axial position."""
@@ -31,8 +39,8 @@ def nearest_node(shaft: Train, z: float) -> int:
 
 
 def names_twice(raw: Mapping[str, Any]) -> Iterator[Problem]:
-    """Yield wheels, bearings and couplings, as read, that have the name of an earlier one."""
-    for kind in ("wheel", "bearing", "coupling"):
+    """Yield wheels, bearings, couplings and masses, as read, that have the name of an earlier one."""
+    for kind in ("wheel", "bearing", "coupling", "mass"):
         entries = raw.get(kind)
         seen: set[str] = set()
         for index, entry in enumerate(entries if isinstance(entries, list) else ()):
@@ -44,14 +52,14 @@ def names_twice(raw: Mapping[str, Any]) -> Iterator[Problem]:
 
 
 def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterator[Problem]:
-    """Yield what is wrong with one wheel, bearing or coupling on this shaft.
+    """Yield what is wrong with one wheel, bearing, coupling or mass on this shaft.
 
     Parameters
     ----------
     shaft : Train
-        Without wheels, bearings and couplings.
+        Without what sits on it.
     kind : str
-        wheel, bearing or coupling.
+        wheel, bearing, coupling or mass.
     index : int
         Of the entry in the file.
     entry : Placed
@@ -59,14 +67,15 @@ def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterat
     """
     found = list(_position(shaft, entry))
     on_shaft = not found
-    bare = isinstance(entry, BearingEntry) and not entry.has_film
-    if on_shaft and kind != "wheel" and not bare:
+    if on_shaft and isinstance(entry, CouplingEntry):
         found += _inside(shaft, entry)
     if isinstance(entry, BearingEntry):
         if entry.has_film:
             found += _film(entry)
-            found += _seat(shaft, entry) if on_shaft else ()
-    elif isinstance(entry, WheelEntry):
+            found += _seat(shaft, entry) if on_shaft and not entry.sleeve else ()
+        if entry.load is not None and entry.height is not None:
+            found.append(("height", f"height = {entry.height!r} beside a load; allowed is one of them"))
+    elif isinstance(entry, WheelEntry | MassEntry):
         found += _body(entry)
     for key, text in found:
         yield (kind, index, key), f"{kind} {entry.name!r}: {text}"
@@ -119,8 +128,6 @@ def _film(entry: BearingEntry) -> Iterator[tuple[str, str]]:
             f"roughness = {entry.roughness!r}; allowed is at most a tenth of the clearance, "
             f"{0.1 * entry.clearance:.3g} m",
         )
-    if entry.load is not None and entry.load <= 0.0:
-        yield "load", f"load = {entry.load!r}; allowed is a number greater than 0"
     if 0.0 < entry.contact_modulus < SOFTEST_CONTACT:
         yield (
             "contact_modulus",
@@ -132,28 +139,35 @@ def _film(entry: BearingEntry) -> Iterator[tuple[str, str]]:
 def _seat(shaft: Train, entry: BearingEntry) -> Iterator[tuple[str, str]]:
     """A bearing sits on a journal of its own diameter that reaches over its whole width."""
     node = nearest_node(shaft, entry.z)
-    around = {s.outer_diameter for s in shaft.shoulders[max(node - 1, 0) : node + 1]}
-    if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in around):
-        there = " and ".join(f"{d:g}" for d in sorted(around))
-        yield "diameter", f"diameter = {entry.diameter!r}; allowed is the shaft's own diameter there, {there}"
+    sides = [(s.surface(0.0), s.surface(1.0)) for s in shaft.shoulders]
+    at = [sides[node - 1][1]] if node else []
+    at += [sides[node][0]] if node < len(sides) else []
+    if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in at):
+        there = " and ".join(f"{d:g}" for d in sorted(set(at)))
+        yield (
+            "diameter",
+            f"diameter = {entry.diameter!r}; allowed is the shaft's own diameter there, {there}, or any with "
+            "sleeve = true",
+        )
         return
     other = [
-        k
-        for k, s in enumerate(shaft.shoulders)
-        if abs(s.outer_diameter - entry.diameter) > POSITION_TOLERANCE
+        k for k, side in enumerate(sides) if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in side)
     ]
-    front = max((shaft.z[k + 1] for k in other if k < node), default=0.0)
-    rear = min((shaft.z[k] for k in other if k >= node), default=shaft.length)
+    # At its very ends the shaft may end within the bearing.
+    front = max((shaft.z[k + 1] for k in other if k < node), default=0.0 if node else -math.inf)
+    rear = min(
+        (shaft.z[k] for k in other if k >= node), default=shaft.length if at[1:] or not node else math.inf
+    )
     room = 2.0 * min(entry.z - front, rear - entry.z)
     if entry.width > room + 2.0 * POSITION_TOLERANCE:
         yield (
             "width",
             f"width = {entry.width!r}; allowed is at most {room:.6g}: the journal of this diameter reaches "
-            f"from z = {front:.6g} to {rear:.6g}",
+            f"from z = {max(front, 0.0):.6g} to {min(rear, shaft.length):.6g}",
         )
 
 
-def _body(entry: WheelEntry) -> Iterator[tuple[str, str]]:
+def _body(entry: WheelEntry | MassEntry) -> Iterator[tuple[str, str]]:
     # Of any body, I_polar = 2 I_transverse - 2 m <z^2>: a thin disc is the limit.
     if entry.polar_inertia > 2.0 * entry.transverse_inertia * (1.0 + 1e-6):
         yield (
@@ -191,14 +205,43 @@ def rotor_problems(shaft: Train, couplings: Sequence[Placed], nodes: Nodes) -> I
     names = ["the front end", *(repr(c.name) for c in couplings), "the rear end"]
     cuts = [0, *nodes["coupling"], shaft.nodes - 1]
     for (front, rear), (first, last) in zip(pairwise(names), pairwise(cuts), strict=True):
-        if not any(first <= node <= last for node in nodes["bearing"]):
+        inside = range(first + (first > 0), last + (last == shaft.nodes - 1))
+        if not any(node in inside for node in nodes["bearing"]):
             yield (), f"bearing: none between {front} and {rear}; allowed is at least one"
     if len(nodes["bearing"]) < 2:
         yield (), f"bearing: {len(nodes['bearing'])} in all; allowed are at least two"
 
 
+def side_problems(data: TrainToml, nodes: Nodes) -> Iterator[Problem]:
+    """Yield what sits at the place of an elastic coupling without saying on which side, and the contrary."""
+    couplings = zip(data.coupling, nodes["coupling"], strict=True)
+    elastic = {node: coupling.name for coupling, node in couplings if coupling.elastic}
+    bodies: dict[str, Sequence[WheelEntry | MassEntry]] = {"wheel": data.wheel, "mass": data.mass}
+    for kind, entries in bodies.items():
+        for index, (entry, node) in enumerate(zip(entries, nodes[kind], strict=True)):
+            if node in elastic and entry.side is None:
+                text = (
+                    f"the elastic coupling {elastic[node]!r} is there, too; allowed is side = front or rear"
+                )
+                yield (kind, index, "z"), f"{kind} {entry.name!r}: z = {entry.z!r}: {text}"
+            elif node not in elastic and entry.side is not None:
+                text = f"side = {entry.side!r}; allowed is it at the z of an elastic coupling"
+                yield (kind, index, "side"), f"{kind} {entry.name!r}: {text}"
+    for index, (bearing, node) in enumerate(zip(data.bearing, nodes["bearing"], strict=True)):
+        if node in elastic:
+            text = f"the elastic coupling {elastic[node]!r} is there; allowed is beside it"
+            yield ("bearing", index, "z"), f"bearing {bearing.name!r}: z = {bearing.z!r}: {text}"
+    without = [index for index, bearing in enumerate(data.bearing) if bearing.height is None]
+    if without and len(without) < len(data.bearing):
+        name = data.bearing[without[0]].name
+        yield (
+            ("bearing", without[0]),
+            f"bearing {name!r}: height: missing; it must be given for all bearings or for none",
+        )
+
+
 def load_problems(train: Train) -> Iterator[Problem]:
-    """Yield bearings from which the shaft lifts off, and those whose film does not carry the static load."""
+    """Yield loads that leave no balance, and bearings whose film does not carry the static load."""
     from rotor_fmu.shaft.statics import target_loads  # with scipy, which nothing else here needs
 
     try:
@@ -206,22 +249,18 @@ def load_problems(train: Train) -> Iterator[Problem]:
     except ValueError as error:
         yield (), str(error)
         return
+    if any(seat.height is not None for seat in train.bearings):
+        return  # how far journals sink decides
     for index, (seat, load) in enumerate(zip(train.bearings, loads.tolist(), strict=True)):
-        where = f"bearing {seat.name!r}: static load {load:.4g} N"
         if seat.coefficients:
             continue  # stiffness and damping carry whatever there is
         most = most_load(seat, train.speed)
-        if load <= 0.0:
+        if abs(load) > most:
             yield (
                 ("bearing", index, "load"),
-                f"{where}: the shaft lifts off; allowed is more than 0. Check the positions of bearings and "
-                "wheels, and the loads given",
-            )
-        elif load > most:
-            yield (
-                ("bearing", index, "load"),
-                f"{where}; its film carries at most {most:.3g} N at the eccentricity ratio {ECCENTRICITY:g} "
-                f"(Sommerfeld number {seat.sommerfeld(load, train.speed):.3g}). Check viscosity "
-                f"{seat.viscosity:g} Pa s, clearance {seat.clearance:g} m, width {seat.width:g} m, speed "
-                f"{train.speed:g} rad/s and the masses",
+                f"bearing {seat.name!r}: static load {load:.4g} N; its film carries at most {most:.3g} N at "
+                f"the eccentricity ratio {ECCENTRICITY:g} (Sommerfeld number "
+                f"{seat.sommerfeld(abs(load), train.speed):.3g}). Check viscosity {seat.viscosity:g} Pa s, "
+                f"clearance {seat.clearance:g} m, width {seat.width:g} m, speed {train.speed:g} rad/s and "
+                "the masses",
             )

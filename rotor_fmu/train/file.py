@@ -1,13 +1,12 @@
 """Reads a train from a folder: ``train.toml`` and the table of shoulders, ``shaft.csv``.
 
-Wheels, bearings and couplings are placed by their axial position ``z``, as on a
+What sits on the shaft is placed by its axial position ``z``, as on a
 drawing; it must be the boundary of two shoulders within `POSITION_TOLERANCE`.
 A file with mistakes is refused with all of them, one line each, with line or row.
 """
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -22,18 +21,34 @@ from rotor_fmu.train.checks import (
     nearest_node,
     order_problems,
     rotor_problems,
+    side_problems,
 )
 from rotor_fmu.train.coefficients import constant, table_text
-from rotor_fmu.train.schema import BORE, BearingEntry, Placed, ShoulderRow, TrainToml, WheelEntry, explain
-from rotor_fmu.train.toml_source import LARGEST, Problem, TomlError, TomlSource, read_toml
-from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
-from rotor_fmu.train.wording import choice
+from rotor_fmu.train.joints import Nodes, with_joints
+from rotor_fmu.train.schema import (
+    BORE,
+    COEFFICIENTS,
+    BearingEntry,
+    CouplingEntry,
+    MassEntry,
+    Placed,
+    TrainToml,
+    WheelEntry,
+)
+from rotor_fmu.train.shaft_table import Rows, read_rows, shoulders_of, unknown_materials
+from rotor_fmu.train.toml_source import Problem, TomlError, TomlSource, read_toml
+from rotor_fmu.train.train import BearingSeat, Coupling, LumpedMass, Material, Shoulder, Train, Wheel
+from rotor_fmu.train.wording import choice, explain
 
 __all__ = ["DATA", "POSITION_TOLERANCE", "TrainFileError", "bundled_trains", "load_train"]
 
 DATA = Path(__file__).parents[1] / "data"
-_COLUMNS = tuple(ShoulderRow.model_fields)
-_MODELS: dict[str, type[Placed]] = {"wheel": WheelEntry, "bearing": BearingEntry, "coupling": Placed}
+_MODELS: dict[str, type[Placed]] = {
+    "wheel": WheelEntry,
+    "bearing": BearingEntry,
+    "coupling": CouplingEntry,
+    "mass": MassEntry,
+}
 _ANY = Material("", 1.0, 0.0, 1.0)
 """In place of a material that is not known, where only the geometry counts."""
 
@@ -79,10 +94,12 @@ def load_train(name_or_path: str | Path) -> Train:
     shaft_file = source.raw.get("shaft")
     table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
     in_table: list[str] = []
-    rows = _read_shaft(table, in_table)
-    given = _coefficients(source, path.parent)
-    train, found = _checked(source, rows if not in_table else [], given) if not problems else (None, [])
-    in_table += _unknown_materials(rows, source.raw.get("materials"))
+    rows = read_rows(table, in_table)
+    train, found = None, list[Problem]()
+    if not problems:
+        given = _coefficients(source, path.parent)
+        train, found = _checked(source, rows if not in_table else [], given, in_table)
+        in_table += unknown_materials(rows, source.raw.get("materials"))
     problems += (f"{path}: {text}" for text in source.located(found))
     problems += (f"{table}: {text}" for text in in_table)
     if train is None or problems:
@@ -105,52 +122,6 @@ def _path_of(name_or_path: str | Path) -> Path:
     return path
 
 
-def _read_shaft(path: Path, problems: list[str]) -> list[tuple[int, ShoulderRow]]:
-    """Rows with the number of their line in the file."""
-    try:
-        if path.is_file() and (size := path.stat().st_size) > LARGEST:
-            problems.append(f"not readable: {size} bytes, allowed are {LARGEST}")
-            return []
-        lines = path.read_text(encoding="utf-8").split("\n")
-    except (ValueError, OSError) as error:
-        problems.append(f"not readable: {error}")
-        return []
-    content = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
-    header = tuple(cell.strip() for cell in content[0][1].split(",")) if content else ()
-    if header != _COLUMNS:
-        problems.append(f"header {','.join(header)!r}; allowed is {','.join(_COLUMNS)!r}")
-        return []
-    rows = []
-    for number, line in content[1:]:
-        cells = _cells(line)
-        if len(cells) != len(_COLUMNS):
-            problems.append(f"row {number}: {len(cells)} values; allowed are {len(_COLUMNS)}")
-            continue
-        raw = dict(zip(_COLUMNS, cells, strict=True))
-        try:
-            rows.append((number, ShoulderRow.model_validate_strings(raw)))
-        except ValidationError as error:
-            problems.extend(f"row {number}: {text}" for _, text in explain(error, raw, ShoulderRow))
-    if len(content) == 1:
-        problems.append("no shoulders; at least one row is needed")
-    return rows
-
-
-def _cells(line: str) -> list[str]:
-    try:
-        return [cell.strip() for cell in next(csv.reader([line]), [])]
-    except csv.Error:
-        return []
-
-
-def _unknown_materials(rows: list[tuple[int, ShoulderRow]], materials: Any) -> Iterator[str]:
-    if not isinstance(materials, Mapping):
-        return  # said elsewhere
-    for number, row in rows:
-        if row.material not in materials:
-            yield f"row {number}: material = {row.material!r}; {choice(row.material, materials)}"
-
-
 def _coefficients(source: TomlSource, folder: Path) -> dict[int, str | ValueError]:
     """Stiffness and damping by the index of the bearing, or what is wrong with its table."""
     given: dict[int, str | ValueError] = {}
@@ -166,7 +137,7 @@ def _coefficients(source: TomlSource, folder: Path) -> dict[int, str | ValueErro
 
 
 def _checked(
-    source: TomlSource, rows: list[tuple[int, ShoulderRow]], given: Mapping[int, str | ValueError]
+    source: TomlSource, rows: Rows, given: Mapping[int, str | ValueError], in_table: list[str]
 ) -> tuple[Train | None, list[Problem]]:
     """Return the train, or None with what is wrong in train.toml, by itself and on this shaft."""
     data, found = None, list[Problem]()
@@ -180,23 +151,23 @@ def _checked(
         return None, found
     known = data.materials if data else {}
     materials = {name: Material(name, **entry.model_dump()) for name, entry in known.items()}
-    shoulders = tuple(
-        Shoulder(row.length, row.outer_diameter, row.inner_diameter, materials.get(row.material, _ANY))
-        for _, row in rows
-    )
-    shaft = _train(data, shoulders, {}, given)
+    shaft = _train(data, shoulders_of(rows, materials, _ANY, in_table), {}, given)
+    if in_table:
+        return None, found
     for kind, model in _MODELS.items():
         for index, entry in _sound(source.raw.get(kind), model):
             found += entry_problems(shaft, kind, index, entry)
     if data is None or found:
         return None, found
-    nodes = {kind: [nearest_node(shaft, entry.z) for entry in getattr(data, kind)] for kind in _MODELS}
+    nodes: Nodes = {kind: [nearest_node(shaft, entry.z) for entry in getattr(data, kind)] for kind in _MODELS}
     found += order_problems(shaft, "bearing", data.bearing, nodes["bearing"])
     found += order_problems(shaft, "coupling", data.coupling, nodes["coupling"])
     if not found:
         found += rotor_problems(shaft, data.coupling, nodes)
-    if found or any(row.material not in materials for _, row in rows):
+        found += side_problems(data, nodes)
+    if found or any(unknown_materials(rows, source.raw.get("materials"))):
         return None, found
+    shoulders, nodes = with_joints(shaft.shoulders, data, nodes)
     train = _train(data, shoulders, nodes, given)
     return train, list(load_problems(train))
 
@@ -213,16 +184,18 @@ def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:
 def _train(
     data: TrainToml | None,
     shoulders: tuple[Shoulder, ...],
-    nodes: Mapping[str, list[int]],
+    nodes: Nodes,
     given: Mapping[int, str | ValueError],
 ) -> Train:
     """Return the train; without nodes only its shaft, without data only the geometry of that."""
+    if data is None:
+        return Train("", 1.0, 0.0, 0.0, 0.0, shoulders, (), ())
     parts: dict[str, list[dict[str, Any]]] = {kind: [] for kind in _MODELS}
     for kind, places in nodes.items():
-        entries = getattr(data, kind)
+        joint = CouplingEntry.model_fields.keys() - {"name"} if kind == "coupling" else set()
         parts[kind] = [
-            {**entry.model_dump(exclude={"z", "stiffness", "damping", "table"}), "node": node}
-            for entry, node in zip(entries, places, strict=True)
+            {**entry.model_dump(exclude={"z", "side", *COEFFICIENTS, *joint}), "node": node}
+            for entry, node in zip(getattr(data, kind), places, strict=True)
         ]
     for index, seat in enumerate(parts["bearing"]):
         assert data is not None
@@ -232,13 +205,15 @@ def _train(
             journal = min(shoulder.outer_diameter for shoulder in around)
             seat |= {key: share * journal if key != "viscosity" else share for key, share in BORE.items()}
     return Train(
-        name=data.name if data else "",
-        speed=data.speed if data else 1.0,
-        rayleigh_alpha=data.damping.alpha if data else 0.0,
-        rayleigh_beta=data.damping.beta if data else 0.0,
-        balance_grade=data.balance_grade if data else 0.0,
+        name=data.name,
+        speed=data.speed,
+        rayleigh_alpha=data.damping.alpha,
+        rayleigh_beta=data.damping.beta,
+        balance_grade=data.balance_grade,
         shoulders=shoulders,
         wheels=tuple(Wheel(**wheel) for wheel in parts["wheel"]),
         bearings=tuple(BearingSeat(**bearing) for bearing in parts["bearing"]),
         couplings=tuple(Coupling(**coupling) for coupling in parts["coupling"]),
+        masses=tuple(LumpedMass(**mass) for mass in parts["mass"]),
+        gravity=(data.gravity[0], data.gravity[1]),
     )

@@ -1,4 +1,4 @@
-"""What a train file may hold, and the words for what is wrong with it.
+"""What a train file may hold.
 
 The bounds are far outside of what machines have and inside of what a slip of unit gives; the description
 of a field says its unit, and after a semicolon the usual slip.
@@ -6,9 +6,7 @@ of a field says its unit, and after a semicolon the usual slip.
 
 from __future__ import annotations
 
-import typing
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import (
     BaseModel,
@@ -17,16 +15,28 @@ from pydantic import (
     Field,
     ModelWrapValidatorHandler,
     PrivateAttr,
-    ValidationError,
+    ValidationInfo,
+    field_validator,
     model_validator,
 )
+from pydantic_core import PydanticCustomError
 
 from fmus import port
 from rotor_fmu.train.coefficients import Matrix, matrix
-from rotor_fmu.train.toml_source import Problem
-from rotor_fmu.train.wording import choice, refusal
+from rotor_fmu.train.units import in_si
 
-Name = Annotated[str, Field(min_length=1, max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.\-]*$")]
+Name = Annotated[
+    str,
+    Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.\-]{0,39}$",
+        description="1 to 40 letters, digits, spaces, points, hyphens and underscores, a letter or digit "
+        "first",
+    ),
+]
+"""Of trains, bearings, wheels, couplings and masses alike."""
+
+LEAST_LENGTH = 1e-5
+"""Of a shoulder [m]; what is shorter is left over from sums of lengths and would cost digits."""
 
 
 def positive(high: float, unit: str, default: Any = ...) -> Any:
@@ -60,25 +70,69 @@ _Matrix = Annotated[Matrix | None, BeforeValidator(matrix)]
 
 
 class _Entry(BaseModel):
-    """Immutable; an unknown key is an error, and true or "1" are no numbers."""
+    """Immutable; an unknown key is an error, true or "1" are no numbers, "450 mm" is one."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
+    @field_validator("*", mode="before")
+    @classmethod
+    def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
+        assert info.field_name is not None
+        unit = unit_of(cls, info.field_name)
+        try:
+            if unit and isinstance(value, list):
+                return [in_si(item, unit) if isinstance(item, str) else item for item in value]
+            return in_si(value, unit) if unit and isinstance(value, str) else value
+        except ValueError as error:
+            raise PydanticCustomError("unit", "{allowed}", {"allowed": str(error)}) from None
+
+
+def unit_of(model: type[BaseModel], name: str) -> str:
+    """SI unit of a field, empty for one that is no measured number."""
+    field = model.model_fields[name]
+    if field.annotation in (str, Name):
+        return ""
+    return (field.description or "").partition(";")[0].strip()
+
 
 class ShoulderRow(_Entry):
-    """A row of shaft.csv: length, outer and inner diameter [m], material."""
+    """A row of shaft.csv, see the README of the rotor; lengths and diameters [m]."""
 
     length: float = positive(20.0, _LENGTH)
     outer_diameter: float = positive(10.0, _LENGTH)
-    inner_diameter: float = within(0.0, 10.0, _LENGTH)
-    material: str
+    inner_diameter: float = within(0.0, 10.0, _LENGTH, 0.0)
+    material: str = ""
+    rear_outer_diameter: float | None = positive(10.0, _LENGTH, None)
+    rear_inner_diameter: float | None = within(0.0, 10.0, _LENGTH, None)
+    stiffness_outer_diameter: float | None = within(0.0, 10.0, _LENGTH, None)
+    stiffness_inner_diameter: float | None = within(0.0, 10.0, _LENGTH, None)
+    counts: Literal["both", "stiffness", "mass"] = "both"
+    z: float | None = within(0.0, 1000.0, _LENGTH, None)
+
+    @property
+    def stiffness_diameters(self) -> tuple[float, float]:
+        """Outer and inner diameter of what is stiff."""
+        outer, inner = self.stiffness_outer_diameter, self.stiffness_inner_diameter
+        return (
+            self.outer_diameter if outer is None else outer,
+            self.inner_diameter if inner is None else inner,
+        )
 
     @model_validator(mode="after")
     def _is_hollow_at_most(self) -> ShoulderRow:
-        if self.inner_diameter >= self.outer_diameter:
+        front = self.outer_diameter, self.inner_diameter
+        rear = self.rear_outer_diameter, self.rear_inner_diameter
+        outer, inner = (a if b is None else b for a, b in zip(front, rear, strict=True))
+        pairs = {"": front, "stiffness_": self.stiffness_diameters, "rear_": (outer, inner)}
+        for prefix, (outer, inner) in pairs.items():
+            if inner >= outer and (prefix != "stiffness_" or outer > 0.0):
+                allowed = f"less than {prefix}outer_diameter, {outer!r}"
+                raise ValueError(f"{prefix}inner_diameter = {inner!r}; allowed is {allowed}")
+        apart = (self.stiffness_outer_diameter, self.stiffness_inner_diameter) != (None, None)
+        if apart and (rear != (None, None) or self.counts != "both"):
             raise ValueError(
-                f"inner_diameter = {self.inner_diameter!r}; allowed is less than outer_diameter, "
-                f"{self.outer_diameter!r}"
+                "stiffness_outer_diameter and stiffness_inner_diameter; allowed are none beside a taper or "
+                "counts: give two rows, one that counts for stiffness and one for mass"
             )
         return self
 
@@ -88,7 +142,15 @@ class MaterialEntry(_Entry):
 
     youngs_modulus: float = Field(gt=1e8, lt=1e13, description="Pa; did you give MPa?")
     poisson_ratio: float = Field(ge=0.0, lt=0.5)
-    density: float = Field(gt=100.0, lt=3e4, description="kg/m3; did you give t/m3?")
+    density: float = Field(ge=0.0, lt=3e4, description="kg/m3; did you give t/m3?")
+
+    @field_validator("density")
+    @classmethod
+    def _is_none_or_that_of_a_solid(cls, value: float) -> float:
+        if 0.0 < value <= 100.0:
+            allowed = "a number greater than 100 kg/m3, or 0; did you give t/m3?"
+            raise PydanticCustomError("unit", "{allowed}", {"allowed": allowed})
+        return value
 
 
 class DampingEntry(_Entry):
@@ -105,6 +167,10 @@ class Placed(_Entry):
     z: float = Field(ge=0.0, allow_inf_nan=False, description="m")
 
 
+Side = Literal["front", "rear"] | None
+"""Of an elastic coupling that stands at the same z."""
+
+
 class WheelEntry(Placed):
     """[[wheel]]: see `rotor_fmu.train.train.Wheel`; z instead of a node."""
 
@@ -114,6 +180,16 @@ class WheelEntry(Placed):
     mean_diameter: float = within(0.0, 20.0, _LENGTH, 0.0)
     balance_factor: float = Field(1.0, ge=0.0, allow_inf_nan=False)
     unbalance_phase: float = angle(0.0)
+    side: Side = None
+
+
+class MassEntry(Placed):
+    """[[mass]]: see `rotor_fmu.train.train.LumpedMass`; z instead of a node."""
+
+    mass: float = within(0.0, 1e6, "kg")
+    polar_inertia: float = within(0.0, 1e7, "kg m2", 0.0)
+    transverse_inertia: float = within(0.0, 1e8, "kg m2", 0.0)
+    side: Side = None
 
 
 class BearingEntry(Placed):
@@ -130,6 +206,8 @@ class BearingEntry(Placed):
     load: float | None = within(-1e9, 1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)
+    height: float | None = within(-0.1, 0.1, _LENGTH, None)
+    sleeve: bool = False
     stiffness: _Matrix = None
     damping: _Matrix = None
     table: str | None = None
@@ -152,66 +230,52 @@ class BearingEntry(Placed):
         return entry
 
 
+class CouplingEntry(Placed):
+    """[[coupling]]: rigid, or with the springs and dampers of `rotor_fmu.train.shoulder.Joint`."""
+
+    translational_stiffness: float | None = positive(1e13, "N/m; did you give N/mm?", None)
+    angular_stiffness: float | None = within(0.0, 1e13, "N m/rad", None)
+    translational_damping: float = within(0.0, 1e10, "N s/m", 0.0)
+    angular_damping: float = within(0.0, 1e10, "N m s/rad", 0.0)
+
+    @property
+    def elastic(self) -> bool:
+        """Whether it has springs."""
+        return self.translational_stiffness is not None
+
+    @model_validator(mode="after")
+    def _has_both_stiffnesses(self) -> CouplingEntry:
+        both = self.translational_stiffness, self.angular_stiffness
+        if (both[0] is None) != (both[1] is None):
+            given, missing = ("translational", "angular") if both[1] is None else ("angular", "translational")
+            raise ValueError(
+                f"{given}_stiffness without {missing}_stiffness; allowed are both, for an elastic coupling, "
+                "or none, for a rigid one"
+            )
+        if both[0] is None and (self.translational_damping or self.angular_damping):
+            raise ValueError("damping of a rigid coupling; allowed is it beside both stiffnesses")
+        return self
+
+
 class TrainToml(_Entry):
     """train.toml; the order of wheels, bearings and couplings is that of the file."""
 
-    name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_\-]*$")]
+    name: Name
     speed: float = positive(1e4, "rad/s; 3000 rev/min are 314.16")
     balance_grade: float = grade()
+    gravity: Annotated[list[float], Field(min_length=2, max_length=3, description="m/s2")] = [0.0, -9.80665]
     shaft: str = "shaft.csv"
     damping: DampingEntry = DampingEntry()
     materials: Annotated[dict[str, MaterialEntry], Field(min_length=1)]
     wheel: list[WheelEntry] = []
     bearing: list[BearingEntry]
-    coupling: list[Placed] = []
+    coupling: list[CouplingEntry] = []
+    mass: list[MassEntry] = []
 
-
-def explain(error: ValidationError, raw: Mapping[str, Any], model: type[BaseModel]) -> Iterator[Problem]:
-    """Location and text of each problem: where, key = value, what is allowed.
-
-    Parameters
-    ----------
-    error : ValidationError
-        What pydantic found.
-    raw : mapping
-        The data as read, to name entries by their name instead of a number.
-    model : type of BaseModel
-        The model that was asked for.
-    """
-    for problem in error.errors():
-        location = problem["loc"]
-        if not location:
-            yield (), str(problem["msg"]).removeprefix("Value error, ")
-            continue
-        where, owner = _walk(location[:-1], raw, model)
-        key, kind = str(location[-1]), problem["type"]
-        if kind == "extra_forbidden":
-            yield location, f"{where}{key}: unknown key; {choice(key, owner.model_fields if owner else ())}"
-        elif kind == "missing":
-            yield location, f"{where}{key}: missing; it must be given"
-        else:
-            field = owner.model_fields.get(key) if owner else None
-            yield location, where + refusal(key, problem, field.description if field else None)
-
-
-def _walk(
-    path: tuple[int | str, ...], raw: Any, model: type[BaseModel] | None
-) -> tuple[str, type[BaseModel] | None]:
-    """Readable prefix of a location and the model of the entry it leads to."""
-    words: list[str] = []
-    for step in path:
-        try:
-            raw = raw[step]
-        except (KeyError, IndexError, TypeError):
-            raw = {}
-        if isinstance(step, int):
-            name = raw.get("name") if isinstance(raw, dict) else None
-            words[-1] += f" {name!r}" if isinstance(name, str) else f" number {step + 1}"
-            continue
-        words.append(str(step))
-        field = model.model_fields.get(step) if model else None
-        if field is not None:
-            inner = [field.annotation, *typing.get_args(field.annotation)]
-            models = [a for a in inner if isinstance(a, type) and issubclass(a, BaseModel)]
-            model = models[0] if models else None
-    return "".join(f"{word}: " for word in words), model
+    @field_validator("gravity")
+    @classmethod
+    def _is_some_planets(cls, value: list[float]) -> list[float]:
+        if not all(abs(g) <= 100.0 for g in value):
+            allowed = "[x, y] or [x, y, z], each a number of at most 100 m/s2"
+            raise PydanticCustomError("unit", "{allowed}", {"allowed": allowed})
+        return value

@@ -12,74 +12,11 @@ import json
 import math
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from itertools import pairwise
 
 from fmus import port
+from rotor_fmu.train.shoulder import Joint, Material, Ring, Shoulder
 
-
-@dataclass(frozen=True)
-class Material:
-    """An isotropic, linear elastic material.
-
-    Attributes
-    ----------
-    name : str
-        The name by which shoulders refer to it.
-    youngs_modulus : float
-        E [Pa].
-    poisson_ratio : float
-        nu.
-    density : float
-        rho [kg/m3].
-    """
-
-    name: str
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-
-    @property
-    def shear_modulus(self) -> float:
-        """G = E / (2 (1 + nu)) [Pa]."""
-        return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
-
-
-@dataclass(frozen=True)
-class Shoulder:
-    """A shaft shoulder: a piece of constant circular cross-section, one finite element.
-
-    Attributes
-    ----------
-    length, outer_diameter, inner_diameter : float
-        [m]; an inner diameter of 0 means a solid section.
-    material : Material
-        What it is made of.
-    """
-
-    length: float
-    outer_diameter: float
-    inner_diameter: float
-    material: Material
-
-    @property
-    def area(self) -> float:
-        """Cross-section A [m2]."""
-        return math.pi / 4.0 * (self.outer_diameter**2 - self.inner_diameter**2)
-
-    @property
-    def second_moment(self) -> float:
-        """Second moment of area I about a diameter [m4]."""
-        return math.pi / 64.0 * (self.outer_diameter**4 - self.inner_diameter**4)
-
-    @property
-    def section_modulus(self) -> float:
-        """W = I / (outer_diameter / 2) [m3]: bending stress at the surface is M / W."""
-        return 2.0 * self.second_moment / self.outer_diameter
-
-    @property
-    def mass(self) -> float:
-        """Mass [kg]."""
-        return self.material.density * self.area * self.length
+__all__ = ["BearingSeat", "Coupling", "Joint", "LumpedMass", "Material", "Ring", "Shoulder", "Train", "Wheel"]
 
 
 @dataclass(frozen=True)
@@ -115,6 +52,20 @@ class Wheel:
 
 
 @dataclass(frozen=True)
+class LumpedMass:
+    """A rigid body on the shaft that is no wheel: half a coupling, a thrust collar, a ring.
+
+    Attributes are those of `Wheel`; it has no unbalance of its own.
+    """
+
+    name: str
+    node: int
+    mass: float
+    polar_inertia: float = 0.0
+    transverse_inertia: float = 0.0
+
+
+@dataclass(frozen=True)
 class BearingSeat:
     """A journal bearing: where it sits and the data of its film and solid contact.
 
@@ -133,13 +84,17 @@ class BearingSeat:
     roughness, contact_modulus, friction : float
         Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
     load : float or None
-        Static target load, upwards on the shaft [N]; None: from the catenary.
+        Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
         Rotation of the bearing's axis against the journal's running axis left by the alignment [rad].
     coefficients : str
         Stiffness and damping, constant or over speed, see `fmus.port.coefficient_rows`; empty: from the film.
     has_film : bool
         Whether the bore is known.  Without, diameter, width and clearance are but scales of motion.
+    height : float or None
+        Of the bearing's centre over a straight line, against gravity [m]; None: as the load asks for.
+    sleeve : bool
+        The journal is a sleeve of the film's diameter that the table of the shaft does not have.
     """
 
     name: str
@@ -157,6 +112,8 @@ class BearingSeat:
     residual_tilt_y: float = 0.0
     coefficients: str = ""
     has_film: bool = True
+    height: float | None = None
+    sleeve: bool = False
 
     @property
     def relative_clearance(self) -> float:
@@ -170,7 +127,11 @@ class BearingSeat:
 
 @dataclass(frozen=True)
 class Coupling:
-    """A coupling: the node at which two rotors are joined rigidly, aligned free of moment."""
+    """A coupling, aligned free of moment: the first node of the rotor behind it.
+
+    Rotors joined rigidly share the node. Those of an elastic coupling do not: the shoulder in front of the
+    node is then a `Joint`, without length.
+    """
 
     name: str
     node: int
@@ -192,6 +153,10 @@ class Train:
         Permissible e_per omega of ISO 21940-11 [m/s]; G2.5 is 2.5e-3.
     shoulders, wheels, bearings, couplings : tuple
         From front to rear.
+    masses : tuple
+        Rigid bodies without unbalance.
+    gravity : tuple of float
+        In x and y [m/s2]; (0, 0) for a train that stands upright.
     """
 
     name: str
@@ -203,6 +168,8 @@ class Train:
     wheels: tuple[Wheel, ...]
     bearings: tuple[BearingSeat, ...]
     couplings: tuple[Coupling, ...] = ()
+    masses: tuple[LumpedMass, ...] = ()
+    gravity: tuple[float, float] = (0.0, -9.80665)
 
     @cached_property
     def z(self) -> tuple[float, ...]:
@@ -222,14 +189,35 @@ class Train:
 
     @property
     def mass(self) -> float:
-        """Mass of shaft and wheels [kg]."""
-        return math.fsum(s.mass for s in self.shoulders) + math.fsum(w.mass for w in self.wheels)
+        """Mass of shaft, wheels and lumped masses [kg]."""
+        return math.fsum(s.mass for s in self.shoulders) + math.fsum(body.mass for body in self.bodies)
+
+    @property
+    def bodies(self) -> tuple[Wheel | LumpedMass, ...]:
+        """All rigid bodies."""
+        return (*self.wheels, *self.masses)
+
+    @property
+    def weight(self) -> float:
+        """Size of the gravity across the shaft [m/s2]."""
+        return math.hypot(*self.gravity)
+
+    @property
+    def upwards(self) -> tuple[float, float]:
+        """Unit vector in x and y against gravity; y where there is none."""
+        g = self.weight
+        return ((0.0 - self.gravity[0]) / g, (0.0 - self.gravity[1]) / g) if g else (0.0, 1.0)
 
     @property
     def sections(self) -> tuple[tuple[int, int], ...]:
         """First and last node of each rotor between couplings, front to rear."""
-        cuts = [0, *(c.node for c in self.couplings), self.nodes - 1]
-        return tuple(pairwise(cuts))
+        first = [0, *(c.node for c in self.couplings)]
+        last = [*(c.node - (self.joint_of(c) is not None) for c in self.couplings), self.nodes - 1]
+        return tuple(zip(first, last, strict=True))
+
+    def joint_of(self, coupling: Coupling) -> Joint | None:
+        """Springs of a coupling, or None of a rigid one."""
+        return self.shoulders[coupling.node - 1].joint if coupling.node else None
 
     def section_of(self, node: int) -> int:
         """Index of the rotor that a node belongs to; a coupling's node belongs to the rotor behind it."""
@@ -237,12 +225,12 @@ class Train:
 
     @property
     def section_masses(self) -> tuple[float, ...]:
-        """Mass of each rotor between couplings, shaft and wheels [kg]."""
+        """Mass of each rotor between couplings, shaft and bodies [kg]."""
         parts: list[list[float]] = [[] for _ in self.sections]
         for k, shoulder in enumerate(self.shoulders):
             parts[self.section_of(k)].append(shoulder.mass)
-        for wheel in self.wheels:
-            parts[self.section_of(wheel.node)].append(wheel.mass)
+        for body in self.bodies:
+            parts[self.section_of(body.node)].append(body.mass)
         return tuple(math.fsum(masses) for masses in parts)
 
     @property
@@ -263,14 +251,17 @@ class Train:
             for w, s in zip(self.wheels, at, strict=True)
         )
 
+    @property
+    def materials(self) -> tuple[Material, ...]:
+        """Materials of the shaft, in the order in which they occur."""
+        used = (m for s in self.shoulders for m in (s.material, *(ring.material for ring in s.rings)))
+        return tuple({material.name: material for material in used}.values())
+
     def to_json(self) -> str:
         """Write as JSON; floats survive the round trip bit by bit."""
         data = {key: value for key, value in asdict(self).items() if key != "shoulders"}
-        materials = {s.material.name: asdict(s.material) for s in self.shoulders}
-        data["materials"] = list(materials.values())
-        data["shoulders"] = [
-            [s.length, s.outer_diameter, s.inner_diameter, s.material.name] for s in self.shoulders
-        ]
+        data["materials"] = [asdict(material) for material in self.materials]
+        data["shoulders"] = [shoulder.to_data() for shoulder in self.shoulders]
         return json.dumps(data, allow_nan=False)
 
     @classmethod
@@ -284,11 +275,10 @@ class Train:
         """
         data = json.loads(text)
         materials = {m["name"]: Material(**m) for m in data.pop("materials")}
-        data["shoulders"] = tuple(
-            Shoulder(length, outer, inner, materials[material])
-            for length, outer, inner, material in data["shoulders"]
-        )
+        data["shoulders"] = tuple(Shoulder.from_data(shoulder, materials) for shoulder in data["shoulders"])
         data["wheels"] = tuple(Wheel(**w) for w in data["wheels"])
         data["bearings"] = tuple(BearingSeat(**b) for b in data["bearings"])
         data["couplings"] = tuple(Coupling(**c) for c in data["couplings"])
+        data["masses"] = tuple(LumpedMass(**m) for m in data["masses"])
+        data["gravity"] = tuple(data["gravity"])
         return cls(**data)

@@ -11,11 +11,14 @@ import tomlkit
 
 from fmus import port
 from rotor_fmu.train.schema import BORE
-from rotor_fmu.train.train import BearingSeat, Coupling, Train, Wheel
+from rotor_fmu.train.train import BearingSeat, Coupling, LumpedMass, Ring, Shoulder, Train, Wheel
 
-Placed: TypeAlias = Coupling | BearingSeat | Wheel
+Placed: TypeAlias = Coupling | BearingSeat | Wheel | LumpedMass
 
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
+_MORE = ",rear_outer_diameter,rear_inner_diameter,counts,z"
+_SINCE = ("height", "sleeve")
+"""Keys that are written where they differ from their defaults."""
 
 
 def write_train(train: Train, folder: Path) -> None:
@@ -48,16 +51,27 @@ def shaft_csv(train: Train) -> str:
     notes: dict[int, list[str]] = {}
     for part in _parts(train):
         notes.setdefault(part.node, []).append(f"{_kind(part)} {part.name}")
+    plain = all(shoulder.plain or shoulder.joint for shoulder in train.shoulders)
     lines = [
         f"# Shoulders of train {train.name}, front to rear; metres",
-        SHAFT_HEADER,
+        SHAFT_HEADER + ("" if plain else _MORE),
     ]
     for k, shoulder in enumerate(train.shoulders):
         if k in notes:
             lines.append(f"# z = {_z(train, k)!r}: {', '.join(notes[k])}")
-        row = (shoulder.length, shoulder.outer_diameter, shoulder.inner_diameter)
-        lines.append(",".join([*(repr(value) for value in row), shoulder.material.name]))
+        for index, ring in enumerate(shoulder.rings):
+            lines.append(_row(shoulder, ring, plain, _z(train, k) if index else None))
     return "\n".join(lines) + "\n"
+
+
+def _row(shoulder: Shoulder, ring: Ring, plain: bool, z: float | None) -> str:
+    cells = [repr(value) for value in (shoulder.length, ring.outer_diameter, ring.inner_diameter)]
+    cells.append(ring.material.name)
+    if not plain:
+        rear = ring.rear_outer_diameter, ring.rear_inner_diameter
+        cells += ["" if value is None else repr(value) for value in rear]
+        cells += [ring.counts, "" if z is None else repr(z)]
+    return ",".join(cells)
 
 
 def train_toml(train: Train) -> str:
@@ -69,7 +83,9 @@ def train_toml(train: Train) -> str:
         "damping": {"alpha": train.rayleigh_alpha, "beta": train.rayleigh_beta},
         "materials": {},
     }
-    for material in dict.fromkeys(s.material for s in train.shoulders):
+    if train.gravity != Train.gravity:
+        content["gravity"] = list(train.gravity)
+    for material in train.materials:
         properties = asdict(material)
         content["materials"][properties.pop("name")] = properties
     for part in _parts(train):
@@ -85,8 +101,24 @@ def _entries(train: Train, part: Placed) -> Iterator[tuple[str, Any]]:
             yield "z", _z(train, part.node)
         elif isinstance(part, BearingSeat) and field.name == "coefficients":
             yield from _given(part)
-        elif value is not None and field.name not in (*scales, "has_film"):
-            yield field.name, value if isinstance(value, str) else float(value)
+        elif field.name in (*scales, "has_film") or (field.name in _SINCE and value == field.default):
+            continue
+        elif isinstance(value, str | bool):
+            yield field.name, value
+        elif value is not None:
+            yield field.name, float(value)
+    if isinstance(part, Coupling):
+        joint = train.joint_of(part)
+        yield from asdict(joint).items() if joint else ()
+    elif not isinstance(part, BearingSeat):
+        yield from _side(train, part.node)
+
+
+def _side(train: Train, node: int) -> Iterator[tuple[str, str]]:
+    """Yield the side of an elastic coupling on which a body sits."""
+    for coupling in train.couplings:
+        if train.joint_of(coupling) and node in (coupling.node - 1, coupling.node):
+            yield "side", "rear" if node == coupling.node else "front"
 
 
 def _given(seat: BearingSeat) -> Iterator[tuple[str, Any]]:
@@ -104,11 +136,12 @@ def _table_file(seat: BearingSeat) -> str:
 
 
 def _parts(train: Train) -> tuple[Placed, ...]:
-    return (*train.couplings, *train.bearings, *train.wheels)
+    return (*train.couplings, *train.bearings, *train.wheels, *train.masses)
 
 
 def _kind(part: Placed) -> str:
-    return {Coupling: "coupling", BearingSeat: "bearing", Wheel: "wheel"}[type(part)]
+    kinds = {Coupling: "coupling", BearingSeat: "bearing", Wheel: "wheel", LumpedMass: "mass"}
+    return kinds[type(part)]
 
 
 def _z(train: Train, node: int) -> float:

@@ -35,7 +35,7 @@ class Rotor:
     unbalance : Unbalance
         Its excitation.
     gravity : float
-        Against y [m/s2].
+        In the direction of the train's gravity [m/s2].
     speed : float
         Speed at the start [rad/s].
     track_work : bool
@@ -91,7 +91,7 @@ class Rotor:
         train: Train,
         *,
         reduction: Method = "irs",
-        gravity: float = 9.80665,
+        gravity: float | None = None,
         speed: float | None = None,
         unbalance: ArrayLike | None = None,
         unbalance_phase: ArrayLike | None = None,
@@ -108,8 +108,8 @@ class Rotor:
             The train.
         reduction : str
             How the shaft is reduced: irs, irs-plain, guyan, craig-bampton or none; see `reduce`.
-        gravity : float
-            Against y [m/s2].
+        gravity : float, optional
+            [m/s2], in the direction of the train's; default that of the train.
         speed : float, optional
             Speed at the start [rad/s]; default that of the train.
         unbalance, unbalance_phase : array_like, (n_w,), optional
@@ -127,7 +127,7 @@ class Rotor:
         return cls(
             prepare_shaft(train, reduction),
             excitation,
-            gravity=gravity,
+            gravity=train.weight if gravity is None else gravity,
             speed=train.speed if speed is None else speed,
             track_work=track_work,
         )

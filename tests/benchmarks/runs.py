@@ -101,7 +101,7 @@ def prepare(source: str, **overrides: Any) -> Case:
     with FmuStore() as store:
         system = assemble(scenario, train, fmu_folder(train), store)
         try:
-            return Case(source, overrides, find_start(system, train.bearings, train.speed, train.nodes))
+            return Case(source, overrides, find_start(system, train, train.speed))
         finally:
             system.close()
 

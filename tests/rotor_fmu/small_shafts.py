@@ -28,7 +28,7 @@ def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):
         M=sp.csr_array(M), D=sp.csr_array(D), G=sp.csr_array(G), K=sp.csr_array(K),
         plane_mass=none, plane_stiffness=none, plane_polar=none, stiffness_root=none,
         z=np.arange(n // 4, dtype=float), bearing_dofs=bearing_dofs, wheel_dofs=wheel_dofs,
-        gravity=load, rayleigh=(0.0, 0.0),
+        gravity=load, rayleigh=(0.0, 0.0), plane_gravity=np.zeros(0),
     )  # fmt: skip
     reduced = ReducedShaft(
         M=M, D=D, G=G, K=K, T=eye, bearing=eye[bearing_dofs.ravel()], wheels=eye[wheel_dofs.ravel()],

@@ -5,26 +5,31 @@ of the bearings, start positions of the rotor.  The steps are
 
 1. the position of each journal in its film under its target load,
 2. the shape that the shaft takes under these wrenches, which gives the offsets
-   (running alignment: each bearing gets its load although journals float at different heights),
+   (running alignment: each bearing gets its load although journals float at different heights);
+   where the train says how high its bearings stand, they stand there, and the loads follow,
 3. the equilibrium of rotor and films, by Newton's method on the affine laws,
 4. the linear response to the nominal unbalance about it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmus import port
-from fmus.build.promises import AFFINE
 from orchestrator.errors import EquilibriumError
-from orchestrator.master.start.journal_position import aligned_positions, carry, evaluate, tilted_positions
+from orchestrator.master.start.journal_position import (
+    aligned_positions,
+    carry,
+    evaluate,
+    least_forces,
+    tilted_positions,
+)
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import offset_names, start_names
-from rotor_fmu.train.train import BearingSeat
+from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
 
@@ -68,19 +73,17 @@ class Start:
     static_line: Array
 
 
-def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes: int) -> Start:
+def find_start(system: System, train: Train, speed: float) -> Start:
     """Find the start of a run.
 
     Parameters
     ----------
     system : System
         In Initialization Mode, with the parameters of the scenario set and all offsets zero.
-    seats : sequence of BearingSeat
-        The train's bearings, for clearances, widths and residual tilts.
+    train : Train
+        For clearances, widths, residual tilts and heights of the bearings, nodes, direction of gravity.
     speed : float
         Rotor speed in rad/s.
-    nodes : int
-        Nodes of the shaft.
 
     Returns
     -------
@@ -92,6 +95,7 @@ def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes
     EquilibriumError
         Naming the bearing and what could not be reached.
     """
+    seats = train.bearings
     clearances = np.array([seat.clearance for seat in seats])
     widths = np.array([seat.width for seat in seats])
     residual = np.array([[seat.residual_tilt_x, seat.residual_tilt_y] for seat in seats])
@@ -99,21 +103,21 @@ def find_start(system: System, seats: Sequence[BearingSeat], speed: float, nodes
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
     if not np.all(np.isfinite(loads)):
         raise EquilibriumError(f"rotor: no target loads: {system.rotor.reason}")
-    lifted = (loads <= 0.0) & np.array([AFFINE not in unit.file.promises for unit in system.bearings])
-    if lifted.any():
-        worst = int(np.argmin(np.where(lifted, loads, np.inf)))
-        raise EquilibriumError(f"{seats[worst].name}: target load {loads[worst]:.4g} N; allowed is > 0")
-    forces = np.column_stack([np.zeros_like(loads), loads])
-    film = aligned_positions(system, loads, clearances)
-    film = tilted_positions(system, forces, film, -residual)
+    forces = np.outer(loads, train.upwards)
+    least = least_forces(system, forces, clearances)
+    film = aligned_positions(system, forces, clearances)
+    film = tilted_positions(system, forces, film, -residual, least)
     system.rotor.set_parameters({"start.from_law": True, "start.orbit": False})
-    shape, film = _align(system, forces, film, np.abs(loads) / clearances)
+    shape, film = _align(system, forces, film, least, np.maximum(np.abs(loads), least) / clearances)
     offsets = shape - film
+    if any(seat.height is not None for seat in seats):
+        offsets[:, :2] = np.outer([seat.height or 0.0 for seat in seats], train.upwards)
+        shape = offsets + film
     for bearing, offset in zip(system.bearings, offsets, strict=True):
         bearing.set_real(offset_names(), offset)
     measure = np.column_stack([clearances, clearances, clearances / widths, clearances / widths])
     static = _equilibrium(system, shape, measure)
-    line = _line(system, nodes)
+    line = _line(system, train.nodes)
     system.rotor.set_parameters({"start.orbit": True})
     system.rotor_group.push()
     system.rotor_group.fetch()
@@ -177,7 +181,7 @@ def _rest_under(system: System, laws: Array) -> Array:
     return journals
 
 
-def _align(system: System, forces: Array, film: Array, stiffness: Array) -> tuple[Array, Array]:
+def _align(system: System, forces: Array, film: Array, least: Array, stiffness: Array) -> tuple[Array, Array]:
     """Return the shape of the running shaft at the bearings and the film positions, in mutual balance.
 
     Film moments, and nothing else, upset the balance of weight and target loads. Weak springs anchored at
@@ -187,7 +191,7 @@ def _align(system: System, forces: Array, film: Array, stiffness: Array) -> tupl
     springs = AUXILIARY_STIFFNESS * stiffness
     laws[:, [4, 9]] = springs[:, None]  # K[1,1] and K[2,2]
     anchor = np.zeros((len(film), 2))
-    scale = np.abs(forces).max()
+    scale = max(np.abs(forces).max(), least.max())
     for _ in range(ALIGNMENT_STEPS):
         laws[:, :4] = system.forces
         laws[:, :2] += springs[:, None] * anchor
@@ -196,7 +200,7 @@ def _align(system: System, forces: Array, film: Array, stiffness: Array) -> tupl
         if np.abs(missing).max() < TOLERANCE * scale:
             return _without_rigid_motion(system, shape), film
         forces = forces + missing
-        film = carry(system, forces, film)
+        film = carry(system, forces, film, least)
         anchor = shape[:, :2]
     raise EquilibriumError(
         f"alignment: {np.abs(missing).max():.3g} N of {scale:.4g} N are out of balance "

@@ -33,8 +33,8 @@ REACH = 0.3
 TOLERANCE = 1e-10
 """Of the film's force against the load."""
 
-NO_LOAD = 1e-6
-"""Share of the largest load below which a load is measured against this share."""
+SLIGHT = 1e-3
+"""Share of the largest load below which a bearing counts as carrying next to nothing."""
 
 _GAP = RESPONSE["h_min"]
 _FORCE = slice(RESPONSE["wrench.Fx"], RESPONSE["wrench.Fy"] + 1)
@@ -49,21 +49,34 @@ def evaluate(system: System, positions: Array) -> None:
     system.bearing_group.fetch()
 
 
-def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
-    """Positions of aligned journals under vertical loads.
+def least_forces(system: System, forces: Array, clearances: Array) -> Array:
+    """Least scale of the force of each film (bearings,) in N, where a bearing carries next to nothing.
+
+    A thousandth of what its film would give at one clearance off the middle, by its stiffness there.
+    """
+    loads = np.hypot(*forces.T)
+    if loads.min() > SLIGHT * loads.max():
+        return np.zeros_like(loads)
+    evaluate(system, np.zeros((len(loads), 4)))
+    stiffness = np.abs(system.responses[:, _STIFFNESS].reshape(-1, 4, 4)[:, :2, :2]).max(axis=(1, 2))
+    return SLIGHT * np.where(np.isfinite(stiffness), stiffness, 0.0) * clearances
+
+
+def aligned_positions(system: System, forces: Array, clearances: Array) -> Array:
+    """Positions of aligned journals whose films give these forces.
 
     Along one direction of displacement the film's force grows, so that its size is bracketed and bisected.
     A bearing that promises to be affine needs no search.
-    A bearing that promises to be isotropic is then turned until the force points up: the angle between both
-    stays.  For others the direction is searched, too: as the displacement makes a turn, so does the force,
-    and the directions between which it passes the vertical are brought together.
+    A bearing that promises to be isotropic is then turned until the force points as it shall: the angle
+    between both stays.  For others the direction is searched, too: as the displacement makes a turn, so does
+    the force, and the directions between which it passes the one wanted are brought together.
 
     Parameters
     ----------
     system : System
         In Initialization Mode, offsets zero.
-    loads : ndarray (bearings,)
-        Upward forces on the journals in N, positive but at affine bearings.
+    forces : ndarray (bearings, 2)
+        Wanted forces on the journals in N; upwards under a weight, downwards where the shaft is held down.
     clearances : ndarray (bearings,)
         Radial clearances in m.
 
@@ -71,7 +84,7 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
     -------
     ndarray (bearings, 4)
         Positions relative to the bearings, tilts zero; those of bearings that are not isotropic to some
-        `ALIGNED` rad, for Newton's method to go on from.
+        `ALIGNED` rad, for Newton's method to go on from.  A bearing without load is left in its middle.
 
     Raises
     ------
@@ -82,13 +95,16 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
         np.array([word in unit.file.promises for unit in system.bearings]) for word in (ISOTROPIC, AFFINE)
     )
     if affine.all():
-        return _affine_positions(system, loads)
-    angle = np.zeros_like(loads)
-    share, turn, carried = _along(system, angle, loads, clearances)
-    angle = np.where(isotropic, turn, angle)
+        return _affine_positions(system, forces)
+    loads, aim = np.hypot(*forces.T), np.arctan2(forces[:, 1], forces[:, 0])
+    loaded = (loads > 0.0) & ~affine
+    # Displaced against the force to begin with; at the angle 0 downwards, from there on with the rotation.
+    angle = aim - 0.5 * np.pi
+    share, turn, carried = _along(system, angle, forces, clearances)
+    angle = np.where(isotropic, angle + turn, angle)
     ends = np.full((2, len(loads)), np.nan)  # directions from which the force must be turned forth and back
     turns = np.zeros_like(ends)
-    searched = ~isotropic & ~affine & (np.abs(turn) > ALIGNED)
+    searched = ~isotropic & loaded & (np.abs(turn) > ALIGNED)
     for _ in range(DIRECTIONS):
         if not searched.any():
             break
@@ -98,43 +114,46 @@ def aligned_positions(system: System, loads: Array, clearances: Array) -> Array:
         with np.errstate(invalid="ignore", divide="ignore"):
             between = ends[0] + np.clip(turns[0] / (turns[0] - turns[1]), 0.1, 0.9) * (ends[1] - ends[0])
         angle = np.where(searched, np.where(np.isfinite(between), between, angle + turn), angle)
-        found = zip(_along(system, angle, loads, clearances), (share, turn, carried), strict=True)
+        found = zip(_along(system, angle, forces, clearances), (share, turn, carried), strict=True)
         share, turn, carried = (np.where(searched, new, old) for new, old in found)
         searched &= np.abs(turn) > ALIGNED
     if searched.any():
         name = system.bearings[int(np.argmax(searched))].name
-        raise EquilibriumError(f"{name}: no position found at which the force of the film points up")
-    short = ~affine & ~(carried > 0.99 * loads)
+        raise EquilibriumError(
+            f"{name}: no position found at which the force of the film is against its load"
+        )
+    short = loaded & ~(carried > 0.99 * loads)
     if short.any():
         worst = int(np.argmax(short))
         raise EquilibriumError(
             f"{system.bearings[worst].name}: the film carries {carried[worst]:.4g} N of the load "
             f"{loads[worst]:.4g} N at most"
         )
+    share = np.where(loaded, share, 0.0)
     positions = np.zeros((len(loads), 4))
     positions[:, 0] = share * clearances * np.sin(angle)
     positions[:, 1] = -share * clearances * np.cos(angle)
-    return np.where(affine[:, None], _affine_positions(system, loads), positions)
+    return np.where(affine[:, None], _affine_positions(system, forces), positions)
 
 
-def _affine_positions(system: System, loads: Array) -> Array:
-    """Positions at which affine bearings carry the loads, the least ones where stiffness leaves a choice."""
-    evaluate(system, np.zeros((len(loads), 4)))
-    missing = np.column_stack([np.zeros_like(loads), loads]) - system.responses[:, _FORCE]
+def _affine_positions(system: System, forces: Array) -> Array:
+    """Positions at which affine bearings give the forces, the least ones where stiffness leaves a choice."""
+    evaluate(system, np.zeros((len(forces), 4)))
+    missing = forces - system.responses[:, _FORCE]
     stiffness = system.responses[:, _STIFFNESS].reshape(-1, 4, 4)[:, :2, :2]
-    positions = np.zeros((len(loads), 4))
+    positions = np.zeros((len(forces), 4))
     positions[:, :2] = (np.linalg.pinv(stiffness) @ -missing[:, :, None])[:, :, 0]
     return positions
 
 
-def _along(system: System, angle: Array, loads: Array, clearances: Array) -> tuple[Array, Array, Array]:
-    """Displace journals in one direction until their films give the loads.
+def _along(system: System, angle: Array, forces: Array, clearances: Array) -> tuple[Array, Array, Array]:
+    """Displace journals in one direction until their films give forces of the size wanted.
 
-    Returns the displacements over the clearances, the angles by which the forces are off upwards, and their
-    sizes, less than the loads where a film does not carry them.  The displacement points down at the angle 0
-    and goes with the rotation from x to y.
+    Returns the displacements over the clearances, the angles by which the forces are off, and their
+    sizes, less than wanted where a film does not carry that much.  The displacement points down at the angle
+    0 and goes with the rotation from x to y.
     """
-    positions = np.zeros((len(loads), 4))
+    positions, loads = np.zeros((len(forces), 4)), np.hypot(*forces.T)
     along, down = clearances * np.sin(angle), -clearances * np.cos(angle)
     low, high = np.zeros_like(loads), np.ones_like(loads)
     for _ in range(BISECTIONS):
@@ -151,11 +170,12 @@ def _along(system: System, angle: Array, loads: Array, clearances: Array) -> tup
     if not np.all(np.isfinite(force)):
         unit = system.bearings[int(np.argmin(np.isfinite(force).all(axis=1)))]
         raise EquilibriumError(f"{unit.name}: no film at any position: {unit.reason}")
-    turn = 0.5 * np.pi - np.arctan2(force[:, 1], force[:, 0])
-    return low, np.where(turn > np.pi, turn - 2.0 * np.pi, turn), np.hypot(*force.T)
+    turn = np.arctan2(forces[:, 1], forces[:, 0]) - np.arctan2(force[:, 1], force[:, 0])
+    turn = np.where(turn > np.pi, turn - 2.0 * np.pi, np.where(turn < -np.pi, turn + 2.0 * np.pi, turn))
+    return low, turn, np.hypot(*force.T)
 
 
-def carry(system: System, forces: Array, positions: Array) -> Array:
+def carry(system: System, forces: Array, positions: Array, least: Array) -> Array:
     """Newton's method for the positions x, y at which the films give these forces, tilts fixed.
 
     Parameters
@@ -166,6 +186,8 @@ def carry(system: System, forces: Array, positions: Array) -> Array:
         Wanted forces on the journals in N.
     positions : ndarray (bearings, 4)
         Where the search starts; also gives the tilts.
+    least : ndarray (bearings,)
+        From `least_forces`.
 
     Returns
     -------
@@ -178,8 +200,7 @@ def carry(system: System, forces: Array, positions: Array) -> Array:
         Naming the worst bearing when the search does not converge.
     """
     positions = positions.copy()
-    size = np.hypot(*forces.T)
-    scale = np.maximum(size, max(NO_LOAD * size.max(), 1e-300))
+    scale = np.maximum(np.hypot(*forces.T), np.maximum(least, 1e-300))
     error = np.full(len(scale), np.inf)
     for _ in range(NEWTON_STEPS):
         evaluate(system, positions)
@@ -199,17 +220,17 @@ def carry(system: System, forces: Array, positions: Array) -> Array:
         positions[:, :2] += step * np.minimum(1.0, reach / length)[:, None]
     worst = int(np.argmax(np.where(np.isfinite(error), error, np.inf)))
     raise EquilibriumError(
-        f"{system.bearings[worst].name}: no position in the film carries {scale[worst]:.4g} N "
+        f"{system.bearings[worst].name}: no position in the film carries {np.hypot(*forces[worst]):.4g} N "
         f"at the tilts {positions[worst, 2]:.3g}, {positions[worst, 3]:.3g} rad"
     )
 
 
-def tilted_positions(system: System, forces: Array, positions: Array, tilts: Array) -> Array:
+def tilted_positions(system: System, forces: Array, positions: Array, tilts: Array, least: Array) -> Array:
     """Tilt the bearings step by step while the films go on carrying these forces.
 
     Parameters
     ----------
-    system, forces, positions
+    system, forces, positions, least
         As for `carry`; `positions` solves it for the tilts that it holds.
     tilts : ndarray (bearings, 2)
         Wanted tilts of the journals against the bearings in rad.
@@ -230,7 +251,7 @@ def tilted_positions(system: System, forces: Array, positions: Array, tilts: Arr
         trial = positions.copy()
         trial[:, 2:] = start + aim * (tilts - start)
         try:
-            positions, done = carry(system, forces, trial), aim
+            positions, done = carry(system, forces, trial, least), aim
         except EquilibriumError:
             share *= 0.5
             if share < 1e-2:

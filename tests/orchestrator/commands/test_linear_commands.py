@@ -124,7 +124,7 @@ def test_response_at_rated_speed_is_the_orbit_that_a_run_starts_from(folder):
     with FmuStore() as store:
         system = assemble(scenario, train, fmu_folder(), store)
         try:
-            start = find_start(system, train.bearings, train.speed, train.nodes)
+            start = find_start(system, train, train.speed)
         finally:
             system.close()
     x, y = (start.cosine[:, i] - 1j * start.sine[:, i] for i in range(2))

@@ -38,7 +38,7 @@ def model(fmus):
     train = train_of(scenario)
     with FmuStore() as store:
         system = assemble(scenario, train, fmus, store)
-        start = find_start(system, train.bearings, train.speed, train.nodes)
+        start = find_start(system, train, train.speed)
         system.close()
     return holistic_model(scenario, train, start)
 

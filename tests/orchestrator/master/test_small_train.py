@@ -34,7 +34,7 @@ def begin(scenario, fmus, store):
     """System at its start, out of Initialization Mode."""
     train = train_of(scenario)
     system = assemble(scenario, train, fmus, store)
-    start = find_start(system, train.bearings, train.speed, train.nodes)
+    start = find_start(system, train, train.speed)
     return system, start, train
 
 

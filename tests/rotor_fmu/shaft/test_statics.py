@@ -126,7 +126,7 @@ class TestBendingStress:
         assert front[1:] == pytest.approx(expected[1:], abs=1e-6)
         assert behind[:-1] == pytest.approx(expected[:-1], abs=1e-6)
 
-        modulus = np.array([s.section_modulus for s in shoulders])
+        modulus = np.array([s.section_moduli[0] for s in shoulders])
         weakest = np.minimum(np.append(modulus, np.inf), np.append(np.inf, modulus))
         assert bending.stress(moments) == pytest.approx(np.abs(expected) / weakest, abs=1e-3)
 
