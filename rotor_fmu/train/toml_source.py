@@ -101,7 +101,7 @@ def read_toml(path: Path) -> TomlSource:
         if not path.is_file() or size > LARGEST:
             kind = f"{size} bytes, allowed are {LARGEST}" if path.is_file() else "no file"
             raise TomlError(f"not readable: {kind}")
-        return TomlSource(path.read_text(encoding="utf-8"))
+        return TomlSource(path.read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError as error:
         raise TomlError(f"not TOML: {error}") from None
     except OSError as error:
