@@ -81,7 +81,7 @@ def test_damaged_scenario(content):
     "input",
     "train.toml or shaft.csv damaged anywhere",
     "read, or TrainFileError naming the file and each problem",
-    guard="rotor_fmu.train.file:_read_shaft",
+    guard="rotor_fmu.train.table:_text",
 )
 @given(st.data())
 @settings(max_examples=300)
