@@ -78,6 +78,8 @@ class Depth:
         Whether its wrench is an affine function of position and velocity, and no film is solved.
     quick : bool
         Whether an evaluation takes some microseconds only, which threads would but delay.
+    boundaries : tuple of str
+        What it offers of ``film.boundary``.
     colour : str
         Of its lines in figures; empty: the next that is free.
     """
@@ -92,6 +94,7 @@ class Depth:
     isotropic: bool = True
     affine: bool = False
     quick: bool = False
+    boundaries: tuple[str, ...] = ("guembel",)
     colour: str = ""
 
     @property
@@ -152,6 +155,7 @@ register(
         text="Journal bearing: Reynolds equation with misalignment and solid contact.",
         film="bearing_fmu.films.tilted.depth:make",
         tilts=True,
+        boundaries=("guembel", "reynolds"),
     )
 )
 register(
@@ -160,6 +164,7 @@ register(
         title="Reynolds, aligned",
         text="Journal bearing: Reynolds equation of the aligned journal, with solid contact.",
         film="bearing_fmu.films.aligned.depth:make",
+        boundaries=("guembel", "reynolds"),
         quick=True,
     )
 )

@@ -9,8 +9,6 @@ from typing import Any
 from fmus import port
 from fmus.port.variable import Value
 
-_BOUNDARY = "film.boundary"
-_BOUNDARIES = ("guembel", "reynolds")
 _ROUGHEST = 0.1
 _COLUMNS, _ROWS = (int(port.bearing_parameter(key).start or 0) for key in ("columns", "rows"))
 
@@ -41,7 +39,12 @@ class BearingParameters:
     boundary : str
         Where the film ruptures: "guembel" (negative pressure zeroed, the port's condition) or "reynolds"
         (pressure and its gradient vanish together), which the tilted film alone offers, at some five times
-        the effort; not a variable of the FMUs yet.
+        the effort.
+    turbulence : str
+        "laminar", or "constantinescu": flow and friction by the local Reynolds number, see
+        `bearing_fmu.films.turbulence`.
+    density : float
+        Of the oil, kg/m3; of turbulent films.
 
     Raises
     ------
@@ -60,11 +63,10 @@ class BearingParameters:
     columns: int = _COLUMNS
     rows: int = _ROWS
     boundary: str = "guembel"
+    turbulence: str = "laminar"
+    density: float = port.default_of("density")
 
     def __post_init__(self) -> None:
-        if self.boundary not in _BOUNDARIES:
-            allowed = " or ".join(repr(b) for b in _BOUNDARIES)
-            raise ValueError(f"bearing parameter boundary = {self.boundary!r}: must be {allowed}")
         for key in port.BEARING_KEYS:
             value, variable = getattr(self, key), port.bearing_parameter(key)
             if not variable.admits(value):
@@ -80,18 +82,21 @@ class BearingParameters:
         """The bearing of these values by the names of the port's variables."""
         given: dict[str, Any] = {key: values[name] for key, name in port.BEARING_KEYS.items()}
         given |= {key: int(given[key]) for key in ("columns", "rows")}
-        return cls(**given, boundary=str(values.get(_BOUNDARY, _BOUNDARIES[0])))
+        return cls(**given)
 
     def values(self) -> dict[str, Value]:
         """What `of` takes."""
-        return {name: getattr(self, key) for key, name in port.BEARING_KEYS.items()} | {
-            _BOUNDARY: self.boundary
-        }
+        return {name: getattr(self, key) for key, name in port.BEARING_KEYS.items()}
 
     @property
     def radius(self) -> float:
         """Journal radius, m."""
         return 0.5 * self.diameter
+
+    @property
+    def is_turbulent(self) -> bool:
+        """Whether flow and friction go by the local Reynolds number."""
+        return self.turbulence != "laminar"
 
     @property
     def has_contact(self) -> bool:

@@ -10,5 +10,6 @@ from __future__ import annotations
 WRENCH, STIFFNESS, DAMPING, PEAK, SHEAR, RESULTS = 0, 4, 20, 36, 37, 38
 
 #: Fields at the nodes of the columns and of the faces: gap, gap open to the oil with two derivatives,
-#: conductance; then at the columns the squeeze flow and the pressure over the cavity.
-GAP, OPEN, OPEN_1, OPEN_2, CONDUCTANCE, SQUEEZE, ABSOLUTE, FIELDS = range(8)
+#: conductance and its power of the open gap; then at the columns the squeeze flow and the pressure over the
+#: cavity.
+GAP, OPEN, OPEN_1, OPEN_2, CONDUCTANCE, POWER, SQUEEZE, ABSOLUTE, FIELDS = range(9)

@@ -25,6 +25,7 @@ SCALES = np.dtype(
         ("pressure", np.float64),  # 6 eta R^2 / C^2, Pa s
         ("force", np.float64),  # `pressure` R b/2, N s
         ("slenderness", np.float64),  # (b/d)^2
+        ("reynolds", np.float64),  # rho R C / eta where the film may be turbulent, else 0; s
         ("contact_first", np.float64),  # first eccentricity of the contact table, m
         ("contact_step", np.float64),  # its spacing, m
         ("closes", np.int64),  # status where the gap is below the deepest one
@@ -52,6 +53,9 @@ def scales(parameters: BearingParameters, table: SliceTable, aligned: bool) -> N
         "pressure": pressure,
         "force": pressure * radius * 0.5 * parameters.width,
         "slenderness": (parameters.width / parameters.diameter) ** 2,
+        "reynolds": (
+            parameters.density * radius * clearance / parameters.viscosity if parameters.is_turbulent else 0.0
+        ),
         "contact_first": table.first,
         "contact_step": table.step,
         "closes": FilmStatus.TOO_DEEP if parameters.has_contact else FilmStatus.GAP_CLOSED,

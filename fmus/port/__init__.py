@@ -29,6 +29,7 @@ from fmus.port.bearing import (
     BEARING_PARAMETERS,
     bearing_parameter,
     default_of,
+    default_word,
 )
 from fmus.port.connector import (
     F0,
@@ -100,6 +101,7 @@ __all__ = [
     "coefficient_text",
     "coefficient_values",
     "default_of",
+    "default_word",
     "rotor",
     "rows_of_values",
     "with_starts",

@@ -85,6 +85,25 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
             ("film.rows", "along the axis", 8, 3, 30),
         )
     ),
+    *(
+        Variable(
+            name, "parameter", "", f"{text}: {', '.join(choices)}", choices[0], kind="String", choices=choices
+        )
+        for name, text, choices in (
+            ("film.boundary", "where the film ruptures", ("guembel", "reynolds")),
+            ("film.turbulence", "how the oil flows", ("laminar", "constantinescu")),
+        )
+    ),
+    Variable(
+        "density",
+        "parameter",
+        "kg/m3",
+        "density of the oil, of turbulent films",
+        870.0,
+        minimum=0.0,
+        nominal=1e3,
+        above=True,
+    ),
 )
 
 _AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
@@ -126,6 +145,9 @@ BEARING_KEYS: dict[str, str] = {
     "friction": "contact.friction",
     "columns": "film.columns",
     "rows": "film.rows",
+    "boundary": "film.boundary",
+    "turbulence": "film.turbulence",
+    "density": "density",
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 
@@ -144,3 +166,8 @@ def bearing_parameter(key: str) -> Variable:
 def default_of(key: str) -> float:
     """Start value of a bearing's number of this word."""
     return float(bearing_parameter(key).start or 0.0)
+
+
+def default_word(key: str) -> str:
+    """Start value of a bearing's parameter that is a word."""
+    return str(bearing_parameter(key).start)

@@ -33,6 +33,8 @@ class Variable:
         Where physics gives them.
     above : bool
         Whether the minimum itself is excluded.
+    choices : tuple of str
+        Words that a String may be; empty: any.
     depends_on : tuple of str
         Names of the inputs an output depends on directly.
     starts_on : tuple of str or None
@@ -58,6 +60,7 @@ class Variable:
     lazy: str = ""
     maximum: float | None = None
     above: bool = False
+    choices: tuple[str, ...] = ()
 
     @property
     def variability(self) -> Variability:
@@ -68,7 +71,9 @@ class Variable:
 
     @property
     def range(self) -> str:
-        """The range of a number in words, with its unit."""
+        """The range of a number in words, with its unit, or the choices."""
+        if self.choices:
+            return " or ".join(map(repr, self.choices))
         unit = f" ({self.unit})" if self.unit else ""
         low, high = self.minimum, self.maximum
         if low is None and high is None:
@@ -77,8 +82,10 @@ class Variable:
             return f"{'an integer ' if self.kind == 'Integer' else ''}from {low:g} to {high:g}{unit}"
         return f"<= {high:g}{unit}" if low is None else f"{'>' if self.above else '>='} {low:g}{unit}"
 
-    def admits(self, value: float) -> bool:
-        """Tell whether a number is finite and in the range."""
+    def admits(self, value: Value) -> bool:
+        """Tell whether a number is finite and in the range, or a word one of the choices."""
+        if isinstance(value, str):
+            return value in self.choices
         low = -inf if self.minimum is None else self.minimum
         high = inf if self.maximum is None else self.maximum
         whole = self.kind != "Integer" or (isfinite(value) and value == int(value))
@@ -131,5 +138,6 @@ UNITS: dict[str, Unit] = {
     "W": Unit(kg=1, m=2, s=-3),
     "J": Unit(kg=1, m=2, s=-2),
     "kg": Unit(kg=1),
+    "kg/m3": Unit(kg=1, m=-3),
     "kg.m": Unit(kg=1, m=1),
 }

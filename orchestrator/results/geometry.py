@@ -8,6 +8,7 @@ from typing import Any
 import xarray as xr
 
 from fmus import port
+from orchestrator.results.film_regime import regime_coordinates
 from orchestrator.scenario.parameters import wheel_unbalances
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
@@ -17,6 +18,7 @@ _BEARING = {
     "bearing_width": ("width", "m", "width of the bearing"),
     "bearing_clearance": ("clearance", "m", "radial clearance"),
     "bearing_viscosity": ("viscosity", "Pa s", "dynamic viscosity of the oil"),
+    "bearing_density": ("density", "kg/m3", "density of the oil"),
     "bearing_ambient_pressure": ("ambient_pressure", "Pa", "pressure at the bearing's ends, over the cavity"),
     "bearing_contact_modulus": ("contact_modulus", "Pa", "contact factor K'E' of Greenwood and Tripp"),
     "bearing_friction": ("friction", "1", "friction coefficient of solid contact"),
@@ -47,6 +49,7 @@ def train_coordinates(scenario: Scenario, train: Train) -> dict[str, Any]:
             [scenario.depth_name_of(seat.name) for seat in train.bearings],
             {"long_name": "modelling depth of the bearing"},
         ),
+        **regime_coordinates(scenario, train),
         "bearing_z": ("bearing", places, _words("m", "axial position of the bearing")),
         "z": ("node", list(train.z), _words("m", "axial position of the node")),
         "node_name": ("node", _node_names(train), {"long_name": "what sits at the node"}),

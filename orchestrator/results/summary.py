@@ -13,6 +13,7 @@ from typing import Any
 
 from orchestrator.master.stepping import StepCounts
 from orchestrator.results.certificate import Certificate
+from orchestrator.results.film_regime import FilmRegime, regimes
 from orchestrator.results.ledger import LedgerSummary, ledger_of
 from orchestrator.results.result import Result, Timing
 from orchestrator.results.statistics import (
@@ -87,6 +88,8 @@ class RunSummary:
         One a phase.
     bearings : tuple of BearingStatistics
         One a phase and bearing.
+    films : tuple of FilmRegime
+        Whether the films are laminar, by bearing.
     certificate : Certificate or None
         What halving the step changes, if that was asked for.
     """
@@ -114,6 +117,7 @@ class RunSummary:
     phases: tuple[Phase, ...]
     shaft: tuple[ShaftStatistics, ...]
     bearings: tuple[BearingStatistics, ...]
+    films: tuple[FilmRegime, ...] = ()
     certificate: Certificate | None = None
 
     def of_phase(self, phase: Phase) -> tuple[BearingStatistics, ...]:
@@ -204,4 +208,5 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         phases=found,
         shaft=tuple(shaft_statistics(record, phase) for phase in found),
         bearings=tuple(bearings),
+        films=regimes(record),
     )

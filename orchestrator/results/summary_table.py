@@ -13,6 +13,7 @@ from rich.text import Text
 
 from orchestrator.outcome import Outcome
 from orchestrator.results.certificate import CERTIFIED, Certificate
+from orchestrator.results.film_regime import regime_text
 from orchestrator.results.ledger import LedgerSummary
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
@@ -139,6 +140,8 @@ def _facts(summary: RunSummary) -> Table:
         rows.append(("peak memory", f"{summary.peak_memory / 1e9:.2f} GB"))
     rows += _shaft_text(summary)
     rows.append(("contact", _contact_text(summary)))
+    if summary.films:
+        rows.append(("films", regime_text(summary.films)))
     for name, text in rows:
         facts.add_row(name, text)
     return facts

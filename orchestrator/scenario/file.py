@@ -15,6 +15,7 @@ from orchestrator.scenario.problems import (
     depth_problems,
     event_problems,
     file_problems,
+    film_problems,
     name_problems,
     shape_problems,
     time_problems,
@@ -176,6 +177,7 @@ def _checked(
         problems += unbalance_problems(scenario, train)
         problems += event_problems(scenario)
         problems += depth_problems(scenario, train)
+        problems += film_problems(scenario, train)
     if scenario is None or train is None or problems:
         # An override stands on no line.
         written = map(_of_single, problems) if single else problems

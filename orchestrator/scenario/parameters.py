@@ -7,7 +7,7 @@ from dataclasses import replace
 from bearing_fmu.depths import LINEAR
 from fmus import port
 from orchestrator.scenario.events import Values
-from orchestrator.scenario.scenario import FilmResolution, Scenario
+from orchestrator.scenario.scenario import FilmSettings, Scenario
 from rotor_fmu.train.train import BearingSeat, Train
 
 
@@ -67,15 +67,15 @@ def wheel_unbalances(scenario: Scenario, train: Train) -> list[tuple[float, floa
     return [given.get(wheel.name, pair) for wheel, pair in zip(train.wheels, own, strict=True)]
 
 
-def bearing_parameters(seat: BearingSeat, film: FilmResolution) -> Values:
+def bearing_parameters(seat: BearingSeat, film: FilmSettings) -> Values:
     """Parameters of a bearing of any depth: geometry, oil, contact, resolution.
 
     Parameters
     ----------
     seat : BearingSeat
         The bearing in the train.
-    film : FilmResolution
-        For depths that solve the Reynolds equation.
+    film : FilmSettings
+        How it is solved.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def bearing_parameters(seat: BearingSeat, film: FilmResolution) -> Values:
         Values by variable name.
     """
     return {
-        name: getattr(film if key in FilmResolution.model_fields else seat, key)
+        name: getattr(film if key in FilmSettings.model_fields else seat, key)
         for key, name in port.BEARING_KEYS.items()
     }
 

@@ -140,6 +140,19 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
         )
 
 
+def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield settings of the films that a depth in use does not offer."""
+    boundary = scenario.film.boundary
+    used = {scenario.depth_of(seat.name) for seat in train.bearings}
+    for depth in depths.depths():
+        if depth.name in used.intersection(depths.films()) and boundary not in depth.boundaries:
+            yield (
+                ("film", "boundary"),
+                f"film.boundary = {boundary!r}; allowed at depth {depth.name} is "
+                f"{' or '.join(map(repr, depth.boundaries))}",
+            )
+
+
 def event_problems(scenario: Scenario) -> Iterator[Problem]:
     """Yield events that exclude one another."""
     for index, key, reason in contradictions(scenario.events):

@@ -84,25 +84,45 @@ class Unbalance(Model):
     at: dict[str, WheelUnbalance] = {}  # noqa: RUF012 (pydantic copies it)
 
 
+def _word(key: str) -> Any:
+    """A word with choices and default of a bearing's parameter."""
+    variable = port.bearing_parameter(key)
+
+    def check(value: Any) -> Any:
+        if isinstance(value, str) and value in variable.choices:
+            return value
+        raise PydanticCustomError("depth", "no choice", {"allowed": variable.choices})
+
+    return Annotated[str, PlainValidator(check)]
+
+
 def _whole(key: str) -> Any:
     """A whole number with range and default of a bearing's parameter."""
     variable = port.bearing_parameter(key)
     return Field(int(variable.start or 0), ge=variable.minimum, le=variable.maximum)
 
 
-class FilmResolution(Model):
-    """Resolution of the films that solve the Reynolds equation.
+_Boundary, _Turbulence = _word("boundary"), _word("turbulence")
+
+
+class FilmSettings(Model):
+    """How the films are solved.
 
     Attributes
     ----------
-    columns : int
-        Around the circumference.
-    rows : int
-        Along the axis.
+    columns, rows : int
+        Resolution around the circumference and along the axis of those that solve the Reynolds equation.
+    boundary : str
+        Where the film ruptures: "guembel", negative pressure is zeroed, as in the paper; or "reynolds",
+        pressure and its gradient vanish together, which the short bearing does not offer.
+    turbulence : str
+        "laminar", as in the paper, or "constantinescu": flow and friction by the local Reynolds number.
     """
 
     columns: int = _whole("columns")
     rows: int = _whole("rows")
+    boundary: _Boundary = port.default_word("boundary")
+    turbulence: _Turbulence = port.default_word("turbulence")
 
 
 class RecordSettings(Model):
@@ -156,8 +176,8 @@ class Scenario(Model):
         or lost; what that costs stands at the rotor's parameter ``track_work``.
     coupling : str
         Name of the coupling, one of `COUPLINGS`.
-    film : FilmResolution
-        Resolution of the films.
+    film : FilmSettings
+        How the films are solved.
     record : RecordSettings
         What is kept.
     analysed_bearing : str or None
@@ -179,7 +199,7 @@ class Scenario(Model):
     tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
     ledger: bool = False
     coupling: CouplingName = "linear-implicit"
-    film: FilmResolution = FilmResolution()
+    film: FilmSettings = FilmSettings()
     record: RecordSettings = RecordSettings()
     analysed_bearing: str | None = None
     folder: Path = Field(default=Path(), exclude=True)

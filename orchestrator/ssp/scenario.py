@@ -17,7 +17,7 @@ from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import Wiring
 from orchestrator.scenario.file import replaced
 from orchestrator.scenario.problems import shape_problems, time_problems, unbalance_problems
-from orchestrator.scenario.scenario import FilmResolution, Scenario
+from orchestrator.scenario.scenario import FilmSettings, Scenario
 from orchestrator.ssp.contents import Contents, value_of
 from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.checks import film_problems
@@ -25,7 +25,7 @@ from rotor_fmu.train.checks import film_problems
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
 _ALLOWED = ("end", "step", "coupling", "tolerance", "ledger")
 
-_FILM = {key: name for key, name in port.BEARING_KEYS.items() if key not in FilmResolution.model_fields}
+_FILM = {key: name for key, name in port.BEARING_KEYS.items() if key not in FilmSettings.model_fields}
 """Variables of a bearing of bladeloss by the keys of a train file."""
 
 
@@ -74,7 +74,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     common = next((depth for depth in found.values() if depth in depths.names()), depths.names()[0])
     film = {
         key: _whole(value_of(contents, first, f"film.{key}"))
-        for key in FilmResolution.model_fields
+        for key in FilmSettings.model_fields
         if f"film.{key}" in contents.files[first.name].variables
     }
     values: dict[str, Any] = {
@@ -134,9 +134,12 @@ def _wheel_values(contents: Contents, key: str) -> list[float]:
     return [float(value_of(contents, contents.rotor, f"wheel[{j}].{key}")) for j in wheels]
 
 
-def _whole(value: Any) -> float:
+def _whole(value: Any) -> float | str:
     """Return a number without its fraction of zero; one that has another is refused later, by its name."""
-    number = float(value)
+    try:
+        number = float(value)
+    except ValueError:
+        return str(value)  # a word
     return int(number) if number.is_integer() else number
 
 

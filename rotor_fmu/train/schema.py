@@ -203,6 +203,9 @@ class BearingEntry(Placed):
     roughness: float = positive(1e-4, "m; did you give um?", port.default_of("roughness"))
     contact_modulus: float = within(0.0, 1e13, _PRESSURE, port.default_of("contact_modulus"))
     friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
+    density: float = Field(
+        port.default_of("density"), gt=100.0, lt=3e3, description="kg/m3; did you give t/m3?"
+    )
     load: float | None = within(-1e9, 1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)

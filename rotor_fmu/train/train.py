@@ -83,6 +83,8 @@ class BearingSeat:
         Pressure at the bearing's ends, over the cavity [Pa].
     roughness, contact_modulus, friction : float
         Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
+    density : float
+        Of the oil, for turbulent films [kg/m3].
     load : float or None
         Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
@@ -107,6 +109,7 @@ class BearingSeat:
     roughness: float = port.default_of("roughness")
     contact_modulus: float = port.default_of("contact_modulus")
     friction: float = port.default_of("friction")
+    density: float = port.default_of("density")
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0

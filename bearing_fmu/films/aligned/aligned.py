@@ -8,78 +8,31 @@ the zeroing of negative pressure is that of V1.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
+from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.tilted.reynolds import summit
-from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
-from bearing_fmu.kernels.grid import COS, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade, place
+from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING, grade, place
 from bearing_fmu.kernels.guembel import bearing_part
 from bearing_fmu.result import (
     CONDUCTANCE,
     DAMPING,
-    FIELDS,
     GAP,
     OPEN,
     OPEN_1,
     OPEN_2,
     PEAK,
+    POWER,
     SHEAR,
     SQUEEZE,
     STIFFNESS,
 )
 
 Floats = NDArray[np.float64]
-
-
-class AlignedFilm(NamedTuple):
-    """Everything prepared once for one bearing; m columns, r even modes, h rows with z >= 0."""
-
-    values: Floats  #: (r,) eigenvalues, (2R/b)^2 included
-    drive: Floats  #: (r,) of a right-hand side that is constant over z
-    shapes: Floats  #: (h, r) modes at the rows
-    centre: Floats  #: (r,) modes at z = 0
-    weights: Floats  #: (h,) of integrals over z, both halves
-    circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
-    rings: Floats  #: (2, RING_ROWS, m)
-    grading: Floats  #: (6, 4)
-    fields: Floats  #: (2, FIELDS, m) columns and faces
-    nodal: Floats  #: (h, 4, m) bearing part of the pressure and its derivatives
-    modal: Floats  #: (3, m, r) the pressure and two adjoint ones
-    factor: Floats  #: (m, 2, r) reciprocal pivots and coupling to the last column
-    forcing: Floats  #: (8, m) work space
-
-
-def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
-    """Prepare a film of `columns` x `rows` with 2R/b = `aspect`."""
-    basis = axial_basis(rows)
-    mass = basis.weights[:rows]
-    stiffness = np.einsum("q,qjk->jk", basis.stiffness_weights() * aspect**2, basis.stiffness_products())
-    values, modes = eigh(stiffness, np.diag(mass))
-    even = np.flatnonzero(np.abs(mass @ modes) > 1e-8)
-    half = np.flatnonzero(basis.nodes[:rows] > -1e-12)
-    double = np.where(basis.nodes[half] > 1e-12, 2.0, 1.0)
-    angle = 2.0 * np.pi / columns * np.arange(2 * columns) / 2.0
-    return AlignedFilm(
-        values=values[even],
-        drive=(mass @ modes)[even],
-        shapes=np.ascontiguousarray(modes[np.ix_(half, even)]),
-        centre=np.ascontiguousarray((basis.interpolation(np.zeros(1)) @ modes)[0, even]),
-        weights=mass[half] * double,
-        circle=np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])]),
-        rings=np.zeros((2, RING_ROWS, columns)),
-        grading=np.zeros((6, 4)),
-        fields=np.zeros((2, FIELDS, columns)),
-        nodal=np.zeros((half.size, 4, columns)),
-        modal=np.zeros((3, columns, even.size)),
-        factor=np.zeros((columns, 2, even.size)),
-        forcing=np.zeros((8, columns)),
-    )
 
 
 @inner_kernel
@@ -90,6 +43,7 @@ def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
     a, da = film.grading[0, :2], film.grading[1:3]
     grade(q, a, da, film.grading[3:, :2])
     rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    film.fields[:, POWER] = LAMINAR_POWER
     for side in range(2):
         ring, field = film.rings[side], film.fields[side]
         place(film.circle[side], a, da, 2, ring)
@@ -106,6 +60,17 @@ def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
     for i in range(m):
         back = i - 1 if i > 0 else m - 1
         squeeze[i] = v[1] * (cos[i] - cos[back]) - v[0] * (sin[i] - sin[back])
+
+
+@inner_kernel
+def _turbulent_shear(film: AlignedFilm, reynolds: float) -> float:
+    """Integral of 1/T times the drag of turbulence."""
+    m = film.circle.shape[2]
+    shear = 0.0
+    for i in range(m):
+        t = film.fields[0, OPEN, i]
+        shear += film.rings[0, METRIC, i] / t * drag(reynolds * t)
+    return 4.0 * np.pi / m * shear
 
 
 @inner_kernel
@@ -255,9 +220,9 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
                 wedge += film.drive[r] * step
             axial *= column[CONDUCTANCE, i]
             around *= face[CONDUCTANCE, i]
-            by_gap_c = -3.0 * column[OPEN_1, i] / column[OPEN, i] * axial
+            by_gap_c = -column[POWER, i] * column[OPEN_1, i] / column[OPEN, i] * axial
             by_gap_c -= 2.0 * volume * column[OPEN_2, i] * column[SQUEEZE, i]
-            by_gap_f = face[OPEN_1, i] * (speed * wedge - 3.0 * around / face[OPEN, i])
+            by_gap_f = face[OPEN_1, i] * (speed * wedge - face[POWER, i] * around / face[OPEN, i])
             squeezed = -2.0 * volume * column[OPEN_1, i]
             dcos = faces[COS, i] - faces[COS, back]
             dsin = faces[SIN, i] - faces[SIN, back]
@@ -281,12 +246,24 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
 
 @stage
 def solve_aligned(
-    film: AlignedFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
+    film: AlignedFilm,
+    q: Floats,
+    v: Floats,
+    speed: float,
+    ambient: float,
+    sigma: float,
+    reynolds: float,
+    result: Floats,
 ) -> bool:
     """Wrench and tangent of the aligned film; parameters and result as in `reynolds.solve_pressure`."""
     result[:] = 0.0
     _shape_gap(film, q, v, sigma)
+    if reynolds > 0.0:
+        slow_down(reynolds, film.circle.shape[2], ALONG, film.fields[0])
+        slow_down(reynolds, film.circle.shape[2], AROUND, film.fields[1])
     if not _solve_pressure(film, speed, ambient, result):
         return False
+    if reynolds > 0.0:
+        result[SHEAR] = _turbulent_shear(film, reynolds)
     _add_tangent(film, q, v, speed, result)
     return True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,9 @@ from numpy.typing import NDArray
 from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
-from bearing_fmu.films.aligned.aligned import AlignedFilm, aligned_film, solve_aligned
+from bearing_fmu.films.aligned.aligned import solve_aligned
+from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
+from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
@@ -23,7 +26,8 @@ Floats = NDArray[np.float64]
 
 @stage
 def _solve(film: AlignedFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
-    if not solve_aligned(film, q, v, speed, scales.ambient, scales.sigma, result):
+    reynolds = scales.reynolds * abs(speed)
+    if not solve_aligned(film, q, v, speed, scales.ambient, scales.sigma, reynolds, result):
         return NO_SOLUTION
     return OK
 
@@ -34,7 +38,10 @@ def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFi
 
 SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare)
 
+RUPTURING = replace(TILTED, name="aligned", tilts=False, boundaries=("reynolds",))
+"""With Reynolds' condition, which holds single nodes: the axial modes do not part, and V1's solver serves."""
+
 
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
-    return Film.of(SOLVER, values)
+    return Film.of(SOLVER if values.get("film.boundary", "guembel") == "guembel" else RUPTURING, values)

@@ -24,7 +24,8 @@ Floats = NDArray[np.float64]
 
 @stage
 def _solve(film: Floats, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
-    solve_short(q, v, speed, scales.ambient, scales.sigma, scales.slenderness, film, result)
+    reynolds = scales.reynolds * abs(speed)
+    solve_short(q, v, speed, scales.ambient, scales.sigma, reynolds, scales.slenderness, film, result)
     return OK
 
 

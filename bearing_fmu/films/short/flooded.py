@@ -11,13 +11,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.films.short.turbulent import half_film
+from bearing_fmu.films.turbulence import ALONG, LAMINAR_POWER, flow_share
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade, place
 
 Floats = NDArray[np.float64]
 
-# Rows of the work space: small arrays, uniform circle, graded ring.
-SMALL, CIRCLE, RING = 0, 2, 4
+# Rows of the work space: small arrays, uniform circle, Gauss and Legendre's rule, arc, graded ring.
+SMALL, CIRCLE, RULE, ARC, RING = 0, 2, 4, 6, 8
 
 
 def short_film(columns: int) -> Floats:
@@ -26,6 +28,8 @@ def short_film(columns: int) -> Floats:
     film = np.zeros((RING + RING_ROWS, points))
     angle = 2.0 * np.pi / points * np.arange(points)
     film[CIRCLE], film[CIRCLE + 1] = np.cos(angle), np.sin(angle)
+    node, weight = np.polynomial.legendre.leggauss(points)
+    film[RULE], film[RULE + 1] = 0.5 * (node + 1.0), 0.5 * weight
     return film
 
 
@@ -47,11 +51,12 @@ def flooded(
     b: float,
     ambient: float,
     k: float,
+    reynolds: float,
     film: Floats,
     force: Floats,
     slope: Floats,
 ) -> None:
-    """Force of the flooded short bearing and its derivatives.
+    """Force of the short bearing, flooded or turbulent, and its derivatives.
 
     Parameters
     ----------
@@ -61,6 +66,8 @@ def flooded(
         Ambient pressure over 6 eta R^2 / C^2, 1/s.
     k : float
         (b/d)^2 / 2.
+    reynolds : float
+        As in `reynolds.solve_pressure`.
     film : ndarray
         Work space from `short_film`.
     force, slope : ndarray, shape (2,), (2, 4)
@@ -71,7 +78,10 @@ def flooded(
     derivative = small[6:14].reshape(2, 4)
     position[0], position[1], position[2], position[3] = x, y, 0.0, 0.0
     grade(position, grading, derivative, small[14:20].reshape(3, 2))
-    place(film[CIRCLE : CIRCLE + 2], grading, derivative, 2, ring)
+    if ambient > 0.0:
+        place(film[CIRCLE : CIRCLE + 2], grading, derivative, 2, ring)
+    else:
+        half_film(a, b, grading, derivative, film[RULE : RULE + 2], film[ARC : ARC + 2], ring)
     cell = 2.0 * np.pi / film.shape[1]
     force[:] = 0.0
     slope[:] = 0.0
@@ -80,7 +90,12 @@ def flooded(
         inverse = 1.0 / (1.0 - x * c - y * s)
         cube = k * inverse * inverse * inverse
         wedge = a * c - b * s
-        steep = 3.0 * wedge * inverse * cube
+        power = LAMINAR_POWER
+        if reynolds > 0.0:
+            share, less = flow_share(reynolds / inverse, ALONG)
+            cube /= share
+            power -= less
+        steep = power * wedge * inverse * cube
         load, change = axial_integral(wedge * cube, ambient)
         force[0] += weight * load * c
         force[1] += weight * load * s

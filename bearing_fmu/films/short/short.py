@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gap
-from bearing_fmu.films.short.flooded import SMALL, flooded
+from bearing_fmu.films.short.flooded import CIRCLE, RING, SMALL, flooded
+from bearing_fmu.films.short.turbulent import turbulent_peak, turbulent_shear
 from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.grid import COS, SIN
 from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS
 
 Floats = NDArray[np.float64]
@@ -161,6 +163,7 @@ def solve_short(
     speed: float,
     ambient: float,
     sigma: float,
+    reynolds: float,
     ratio: float,
     film: Floats,
     result: Floats,
@@ -169,7 +172,7 @@ def solve_short(
 
     Parameters
     ----------
-    q, v, speed, ambient, sigma, result
+    q, v, speed, ambient, sigma, reynolds, result
         As in `reynolds.solve_pressure`.
     ratio : float
         (b/d)^2.
@@ -183,9 +186,9 @@ def solve_short(
     effective_state(q, v, sigma, state, jacobian)
     x, y = state[0], state[1]
     a, b = speed * y + 2.0 * state[2], speed * x - 2.0 * state[3]
-    if ambient > 0.0:
+    if ambient > 0.0 or reynolds > 0.0:
         unit = 1.0
-        flooded(x, y, a, b, ambient, 0.5 * ratio, film, force, slope)
+        flooded(x, y, a, b, ambient, 0.5 * ratio, reynolds, film, force, slope)
     else:
         unit = ratio / 3.0
         capone(x, y, a, b, force, slope)
@@ -198,5 +201,11 @@ def solve_short(
             by_rate = by_vx * jacobian[2, k] + by_vy * jacobian[3, k]
             result[STIFFNESS + 4 * i + k] = unit * (by_place + by_rate)
             result[DAMPING + 4 * i + k] = unit * (by_vx * jacobian[2, 2 + k] + by_vy * jacobian[3, 2 + k])
-    result[PEAK] = ambient + 0.5 * ratio * max(largest_pressure(x, y, a, b), 0.0)
-    result[SHEAR] = 4.0 * np.pi / np.sqrt(1.0 - x * x - y * y)
+    if reynolds > 0.0:
+        circle, ring = film[CIRCLE : CIRCLE + 2], film[RING:]
+        result[SHEAR] = turbulent_shear(x, y, reynolds, circle, film[SMALL], ring)
+        peak = turbulent_peak(x, y, a, b, reynolds, ring[COS], ring[SIN])
+    else:
+        result[SHEAR] = 4.0 * np.pi / np.sqrt(1.0 - x * x - y * y)
+        peak = largest_pressure(x, y, a, b)
+    result[PEAK] = ambient + 0.5 * ratio * max(peak, 0.0)

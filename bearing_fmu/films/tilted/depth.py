@@ -25,7 +25,10 @@ Floats = NDArray[np.float64]
 
 @stage
 def _solve(film: TiltedFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
-    status = solve_pressure(film, q, v, speed, scales.ambient, scales.sigma, scales.ruptures, result)
+    reynolds = scales.reynolds * abs(speed)
+    status = solve_pressure(
+        film, q, v, speed, scales.ambient, scales.sigma, reynolds, scales.ruptures, result
+    )
     if status == OK:
         add_tangent(film, q, v, speed, result)
     return status

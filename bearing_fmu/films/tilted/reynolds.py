@@ -21,12 +21,13 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
 from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.cyclic_solver import factorise, substitute
 from bearing_fmu.kernels.grid import COS, METRIC, SIN, grade, place
 from bearing_fmu.kernels.guembel import bearing_part
 from bearing_fmu.kernels.vector import LANES, add_rows
-from bearing_fmu.result import ABSOLUTE, CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, PEAK, SHEAR, SQUEEZE
+from bearing_fmu.result import ABSOLUTE, CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, PEAK, POWER, SHEAR, SQUEEZE
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
@@ -40,6 +41,8 @@ def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
     a, da = film.grading[0, :2], film.grading[1:3]
     grade(q, a, da, film.grading[3:, :2])
     rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    film.column[POWER] = LAMINAR_POWER
+    film.face[POWER] = LAMINAR_POWER
     for side in range(2):
         ring = film.rings[side]
         place(film.circle[side], a, da, 4, ring)
@@ -60,6 +63,30 @@ def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
                 scale = film.weights[j] / cell
                 for i in range(m):
                     conductance[i] = scale / metric[i] * (t[i] * t[i] * t[i])
+
+
+@inner_kernel
+def _make_turbulent(film: TiltedFilm, reynolds: float) -> None:
+    """Turbulent conductances in place of the laminar ones; `reynolds` is rho U C / eta."""
+    m = film.circle.shape[2]
+    for j in range(film.column.shape[1]):
+        slow_down(reynolds, m, ALONG, film.column[:, j])
+    for j in range(film.face.shape[1]):
+        slow_down(reynolds, m, AROUND, film.face[:, j])
+
+
+@inner_kernel
+def _turbulent_shear(film: TiltedFilm, reynolds: float) -> float:
+    """Integral of 1/T times the drag of turbulence."""
+    m = film.circle.shape[2]
+    metric, shear = film.rings[0, METRIC], 0.0
+    for j in range(film.column.shape[1]):
+        t = film.column[OPEN, j]
+        total = 0.0
+        for i in range(m):
+            total += metric[i] / t[i] * drag(reynolds * t[i])
+        shear += film.weights[j] * total
+    return 2.0 * np.pi / m * shear
 
 
 @inner_kernel
@@ -192,6 +219,7 @@ def solve_pressure(
     speed: float,
     ambient: float,
     sigma: float,
+    reynolds: float,
     ruptures: int,
     result: Floats,
 ) -> int:
@@ -209,6 +237,8 @@ def solve_pressure(
         Ambient pressure over 6 eta R^2 / C^2, 1/s.
     sigma : float
         Roughness over clearance.
+    reynolds : float
+        Of the clearance, rho U C / eta, where the film may be turbulent; 0 for a laminar one.
     ruptures : int
         1 for Reynolds' condition, 0 for Guembel's.
     result : ndarray, shape (RESULTS,)
@@ -223,6 +253,8 @@ def solve_pressure(
     width = film.coupling.shape[0] // m
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
     _shape_gap(film, q, sigma)
+    if reynolds > 0.0:
+        _make_turbulent(film, reynolds)
     release(film)
     status = NOT_CONVERGED
     for attempt in range(ROUNDS):
@@ -239,4 +271,6 @@ def solve_pressure(
             break
     if status == OK:
         _integrate(film, ambient, result)
+        if reynolds > 0.0:
+            result[SHEAR] = _turbulent_shear(film, reynolds)
     return status

@@ -18,7 +18,7 @@ from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.cyclic_solver import substitute
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
-from bearing_fmu.result import CONDUCTANCE, DAMPING, OPEN, OPEN_1, OPEN_2, SQUEEZE, STIFFNESS
+from bearing_fmu.result import CONDUCTANCE, DAMPING, OPEN, OPEN_1, OPEN_2, POWER, SQUEEZE, STIFFNESS
 
 Floats = NDArray[np.float64]
 
@@ -72,19 +72,19 @@ def _prepare(film: TiltedFilm, speed: float) -> None:
             at_node[i] = -2.0 * weight * t2[i] * squeeze[i]
             volume[i] = -2.0 * weight * t1[i]
         t, t1, conductance = film.face[OPEN, j], film.face[OPEN_1, j], film.face[CONDUCTANCE, j]
-        difference = pressure[n + j]
+        difference, power = pressure[n + j], film.face[POWER, j]
         gap, metric = by_gap[n + j], by_metric[n + j]
         for i in range(m):
             flow = conductance[i] * difference[i]
-            gap[i] = t1[i] * (weight * speed - 3.0 * flow / t[i])
+            gap[i] = t1[i] * (weight * speed - power[i] * flow / t[i])
             metric[i] = flow
     for j in range(n + 2):
         t, t1, conductance = film.column[OPEN, j], film.column[OPEN_1, j], film.column[CONDUCTANCE, j]
-        slope = pressure[2 * n + j]
+        slope, power = pressure[2 * n + j], film.column[POWER, j]
         gap, metric = by_gap[2 * n + j], by_metric[2 * n + j]
         for i in range(m):
             flow = conductance[i] * slope[i]
-            gap[i] = -3.0 * t1[i] * flow / t[i]
+            gap[i] = -power[i] * t1[i] * flow / t[i]
             metric[i] = -flow
 
 

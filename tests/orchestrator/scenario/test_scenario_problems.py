@@ -94,7 +94,7 @@ CASES = [
     case(
         "rows = 8", "rows = 31", 14, "film.rows = 31; allowed is a number of at most 30",
         "a film resolution that the bearings refuse", "exit 2; line, value, range",
-        guard="orchestrator.scenario.scenario:FilmResolution.rows",
+        guard="orchestrator.scenario.scenario:FilmSettings.rows",
     ),
     case(
         "unbalance = 0.5", "unbalance = inf", 9, "event.unbalance = inf; allowed is a finite number",

@@ -1,0 +1,93 @@
+"""Whether the films of a run are laminar: Reynolds number of the clearance against Taylor's limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import xarray as xr
+
+from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.train import BearingSeat, Train
+
+
+@dataclass(frozen=True)
+class FilmRegime:
+    """How the oil of one bearing flows.
+
+    Attributes
+    ----------
+    bearing : str
+        Its name.
+    reynolds : float
+        rho U C / eta, of the clearance.
+    taylor : float
+        Where vortices set in, 41.1 sqrt(R / C) (Taylor 1923).
+    laminar : bool
+        Whether its film is taken as laminar.
+    """
+
+    bearing: str
+    reynolds: float
+    taylor: float
+    laminar: bool
+
+    @property
+    def beyond(self) -> bool:
+        """Whether a film that is taken as laminar is not."""
+        return self.laminar and self.reynolds > self.taylor
+
+
+def reynolds_number(seat: BearingSeat, speed: float) -> float:
+    """Reynolds number of the clearance."""
+    return seat.density * abs(speed) * 0.5 * seat.diameter * seat.clearance / seat.viscosity
+
+
+def taylor_limit(seat: BearingSeat) -> float:
+    """Reynolds number of the clearance from which on Taylor's vortices fill it."""
+    return 41.1 * (0.5 * seat.diameter / seat.clearance) ** 0.5
+
+
+def regime_coordinates(
+    scenario: Scenario, train: Train
+) -> dict[str, tuple[str, list[float], dict[str, str]]]:
+    """Coordinates of the record from which `regimes` reads."""
+    seats = train.bearings
+    numbers = [reynolds_number(seat, train.speed) for seat in seats]
+    laminar = [scenario.film.turbulence == "laminar"] * len(seats)
+    return {
+        "reynolds": ("bearing", numbers, {"units": "1", "long_name": "Reynolds number of the clearance"}),
+        "taylor_limit": (
+            "bearing",
+            [taylor_limit(seat) for seat in seats],
+            {"units": "1", "long_name": "Reynolds number of Taylor's vortices"},
+        ),
+        "laminar": ("bearing", laminar, {"long_name": "whether the film is taken as laminar"}),
+    }
+
+
+def regimes(record: xr.Dataset) -> tuple[FilmRegime, ...]:
+    """Of every bearing of a record; empty where it does not tell."""
+    if not {"reynolds", "taylor_limit", "laminar"} <= set(record.coords):
+        return ()
+    columns = (record[name].values for name in ("bearing", "reynolds", "taylor_limit", "laminar"))
+    return tuple(
+        FilmRegime(str(name), float(number), float(limit), bool(laminar))
+        for name, number, limit, laminar in zip(*columns, strict=True)
+    )
+
+
+def regime_text(films: tuple[FilmRegime, ...]) -> str:
+    """Reynolds numbers and limits in one sentence, and a warning of films that are not laminar."""
+    groups: dict[tuple[int, int], list[str]] = {}
+    for film in films:
+        groups.setdefault((round(film.reynolds), round(film.taylor)), []).append(film.bearing)
+    text = "Reynolds number (Taylor's limit) " + "; ".join(
+        f"{number} ({limit}) at {', '.join(names)}" for (number, limit), names in groups.items()
+    )
+    count = sum(film.beyond for film in films)
+    if count:
+        text += (
+            f". WARNING: {count} of {len(films)} films are beyond the limit, but taken as laminar; "
+            'film.turbulence = "constantinescu" shows what that changes'
+        )
+    return text
