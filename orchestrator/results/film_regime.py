@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import xarray as xr
 
+from bearing_fmu import depths
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import BearingSeat, Train
 
@@ -50,9 +52,13 @@ def taylor_limit(seat: BearingSeat) -> float:
 def regime_coordinates(
     scenario: Scenario, train: Train
 ) -> dict[str, tuple[str, list[float], dict[str, str]]]:
-    """Coordinates of the record from which `regimes` reads."""
+    """Coordinates of the record from which `regimes` reads; NaN where there is no film of bladeloss."""
     seats = train.bearings
-    numbers = [reynolds_number(seat, train.speed) for seat in seats]
+    films = [seat.has_film and scenario.depth_of(seat.name) in depths.films() for seat in seats]
+    numbers = [
+        reynolds_number(seat, train.speed) if film else math.nan
+        for seat, film in zip(seats, films, strict=True)
+    ]
     laminar = [scenario.film.turbulence == "laminar"] * len(seats)
     return {
         "reynolds": ("bearing", numbers, {"units": "1", "long_name": "Reynolds number of the clearance"}),
@@ -66,13 +72,14 @@ def regime_coordinates(
 
 
 def regimes(record: xr.Dataset) -> tuple[FilmRegime, ...]:
-    """Of every bearing of a record; empty where it does not tell."""
+    """Of every bearing of a record that has a film; empty where it does not tell."""
     if not {"reynolds", "taylor_limit", "laminar"} <= set(record.coords):
         return ()
     columns = (record[name].values for name in ("bearing", "reynolds", "taylor_limit", "laminar"))
     return tuple(
         FilmRegime(str(name), float(number), float(limit), bool(laminar))
         for name, number, limit, laminar in zip(*columns, strict=True)
+        if math.isfinite(number)
     )
 
 

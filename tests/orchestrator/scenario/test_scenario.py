@@ -126,7 +126,7 @@ def test_a_file_that_is_no_toml_is_named(scenario_file):
 
 
 def test_a_missing_file_lists_the_bundled_scenarios():
-    assert "allowed are paper, small, or the path" in problems("papper")[0]
+    assert "allowed are paper, small, turbulent, or the path" in problems("papper")[0]
 
 
 def test_overrides_merge_key_by_key_and_take_out(scenario_file):
