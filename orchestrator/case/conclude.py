@@ -46,8 +46,7 @@ def conclude(
         For output and for what went wrong.
     """
     result, half = results
-    limits = to_text(load_limits(own_file(case.scenario)))
-    result = replace(result, record=result.record.assign_attrs({ATTRIBUTE: limits}))
+    result = completed(case, result)
     summary = summarise(result, analysed=request.bearing)
     if half is not None:
         certificate = certify(summary, summarise(half, analysed=request.bearing))
@@ -71,6 +70,12 @@ def conclude(
         text = f" {outcome.value} (exit status {outcome.status}): {message}"
         errors.print(Text.assemble(("error:", "red"), text), soft_wrap=True)
     return outcome.status
+
+
+def completed(case: Case, result: Result) -> Result:
+    """The result with the limits of its machine in the record."""
+    limits = to_text(load_limits(own_file(case.scenario)))
+    return replace(result, record=result.record.assign_attrs({ATTRIBUTE: limits}))
 
 
 def _write(

@@ -27,7 +27,9 @@ from rotor_fmu.train.wording import choice
 
 
 @contextmanager
-def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = None) -> Iterator[Case]:
+def prepare(
+    request: RunRequest, console: Console, saved: Checkpoint | None = None, *, writes: bool = True
+) -> Iterator[Case]:
     """Make the case of a request, or of a checkpoint; what it extracts vanishes at the end.
 
     Parameters
@@ -38,6 +40,8 @@ def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = No
         Told which FMUs are built.
     saved : Checkpoint, optional
         Of an earlier run of the request.
+    writes : bool
+        Whether results will be written, so that their folder is looked at now.
 
     Raises
     ------
@@ -51,8 +55,9 @@ def prepare(request: RunRequest, console: Console, saved: Checkpoint | None = No
                 f"--bearing {request.bearing}: no such bearing; {choice(request.bearing, names)}"
             )
         folder = result_folder_of(request, case.scenario)
-        check_folder(folder)
-        check_room(folder, record_size(case.scenario, case.train))
+        if writes:
+            check_folder(folder)
+            check_room(folder, record_size(case.scenario, case.train))
         if request.checkpoint is not None:
             check_writable(checkpoint_folder(folder))
         known = vouched(saved.about.get("trusted", {})) if saved is not None else ()

@@ -165,7 +165,7 @@ class LinearCase:
         return f"films {name}, linearised at {self.train.speed / HERTZ:g} Hz"
 
 
-def linear_case(request: LinearRequest, console: Console) -> LinearCase:
+def linear_case(request: LinearRequest, console: Console, *, writes: bool = True) -> LinearCase:
     """Read what is to be investigated: a scenario, or a train under the settings of a plain scenario.
 
     Raises
@@ -183,7 +183,8 @@ def linear_case(request: LinearRequest, console: Console) -> LinearCase:
         settings: dict[str, Any] = {"train": request.source, "end": 1.0, "title": f"Train {train.name}"}
         settings |= {"depth": request.depth} if request.depth else {}
         scenario = on_train(Scenario.model_validate(settings), train)
-    check_folder(request.folder, f"{request.command}.nc")
+    if writes:
+        check_folder(request.folder, f"{request.command}.nc")
     return LinearCase(request, scenario, train, console)
 
 
