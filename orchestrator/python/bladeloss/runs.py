@@ -50,6 +50,7 @@ def run(
     threads: int | None = None,
     trust: bool = False,
     progress: bool | None = None,
+    figures: bool = True,
     report: bool = False,
     **changes: Any,
 ) -> xr.Dataset:
@@ -69,6 +70,8 @@ def run(
         Run FMUs of others, native code with all your rights.
     progress : bool, optional
         Show how far it is; by default on a terminal and in a notebook.
+    figures : bool
+        Draw the figures into `out`.
     report : bool
         Make ``report.html``, too; needs `out`.
     **changes
@@ -89,7 +92,7 @@ def run(
     quiet = Console(quiet=True)
     request = RunRequest(
         str(source), nested(changes), None if out is None else Path(out),
-        fmu_folder() if fmus is None else Path(fmus), threads=threads, trust=trust, report=report,
+        fmu_folder() if fmus is None else Path(fmus), formats=("png",) if figures else (), threads=threads, trust=trust, report=report,
     )  # fmt: skip
     with prepare(request, quiet, writes=out is not None) as case:
         if request.out is None:
