@@ -11,6 +11,7 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.campbell import free_data, supported_data
 from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
+from orchestrator.linear.operating_point import bearing_data
 from orchestrator.linear.tables import COLUMNS_EXPLAINED, error_text, shaft_column, table_of, whirl_name
 from orchestrator.results.figures.campbell import free_figure, supported_figure
 from rotor_fmu.linear.analysis import WhirlError, free_branches
@@ -26,7 +27,7 @@ TOLERANCE = 1e-4
 
 
 @one_blas_thread()
-def run(request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float) -> int:
+def run(request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float | None) -> int:
     """Compute, print and write the diagram; returns the exit status.
 
     Raises
@@ -35,11 +36,14 @@ def run(request: LinearRequest, console: Console, *, supported: bool, count: int
         For anything wrong with the input, or modes that the shaft does not have.
     """
     case = linear_case(request, console)
+    highest = highest or 2.0 * case.train.speed / HERTZ
     if supported:
-        data = supported_data(case, count, highest)
-        write_results(
-            case, [data, case.bearing_data], supported_table(case, data), supported_figure(data, case.train)
-        )
+        with case.over_speed() as films:
+            data = supported_data(case, films, count, highest)
+            points = {HERTZ * hertz: films.at(HERTZ * hertz) for hertz in data["rotation"].values}
+        bearings = bearing_data(points, case.train, case.films_over_speed)
+        table = supported_table(case, data)
+        write_results(case, [data, bearings], table, supported_figure(data, case.train))
         return 0
     try:
         data, iterations = free_data(case, count, highest)
@@ -53,7 +57,7 @@ def run(request: LinearRequest, console: Console, *, supported: bool, count: int
     return 0
 
 
-def _bending_modes(case: LinearCase, count: int, highest: float) -> int:
+def _bending_modes(case: LinearCase, count: int, highest: float | None) -> int:
     """How many bending modes the unreduced shaft has in each direction, up to a number."""
     while count > 0:
         try:
@@ -97,13 +101,15 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     top, here = float(data["rotation"][-1]), float(data["rotation"][at])
     methods = [str(name) for name in data["shaft"].values[1:]]
     table = table_of(
-        f"{case.train.name} on {case.films}: modes at {here:g} Hz of rotation, "
+        f"{case.train.name} on {case.films_over_speed}: modes at {here:g} Hz of rotation, "
         f"and largest error of an eigenvalue, 0 to {top:g} Hz"
     )
     for name in ("mode", "Hz", "damping\nratio", "whirl", *methods):
         table.add_column(shaft_column(name), justify="left" if name == "whirl" else "right")
     modes, errors = data.sel(shaft=FULL).isel(rotation=at), data["error"].max("rotation")
     for k, mode in enumerate(data["mode"].values):
+        if not np.isfinite(float(modes["frequency"][k])):
+            continue  # at other speeds only
         table.add_row(
             str(mode),
             f"{float(modes['frequency'][k]):.3f}",
@@ -114,5 +120,5 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     largest = [float(errors.sel(shaft=name).max()) for name in methods]
     table.add_section()
     table.add_row("all", "", "", "", *(error_text(error, TOLERANCE) for error in largest))
-    table.caption = COLUMNS_EXPLAINED
+    table.caption = " ".join([COLUMNS_EXPLAINED, *filter(None, [data.attrs.get("missing", "")])])
     return table

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from orchestrator.linear.case import FULL, HERTZ, REDUCTIONS, LinearCase
+from orchestrator.linear.operating_point import OverSpeed
 from rotor_fmu.linear.analysis import (
+    ModesAt,
     ReducedShaft,
-    WhirlModes,
-    campbell,
+    ShaftModel,
+    Tracks,
+    follow,
     free_branches,
     irs_iterates,
     matched,
     modal_truncation,
+    whirl_modes,
 )
 
 Array = NDArray[np.float64]
@@ -27,6 +32,9 @@ SUPPORTED_STEPS = 25
 
 STRONGEST_DAMPING = 0.95
 """Damping ratio beyond which a mode counts as overdamped and is left out."""
+
+LIGHT = 0.3
+"""Damping ratio up to which a mode that is none at rated speed is shown all the same."""
 
 OVERDAMPED = 6
 """Modes asked for beyond those shown, in place of overdamped ones."""
@@ -86,25 +94,25 @@ def _iterations(
     )
 
 
-def supported_data(case: LinearCase, count: int, highest: float) -> xr.Dataset:
-    """Eigenvalues on the films (shaft, rotation, mode), matched with those of the unreduced shaft."""
-    rated = round(case.train.speed / HERTZ, 9)
+def supported_data(case: LinearCase, films: OverSpeed, count: int, highest: float) -> xr.Dataset:
+    """Eigenvalues on the films of each speed (shaft, rotation, mode), followed over speed from the rated one.
+
+    Those of the reductions are matched with those of the unreduced shaft; NaN where a mode is overdamped, or
+    none at all.
+    """
     rotation = np.linspace(0.0, highest, SUPPORTED_STEPS + 1)
-    rotation = np.union1d(rotation, [rated]) if rated < highest else rotation
-    bearings, number = case.operating_point.bearings, 2 * count
-    found = campbell(case.shaft, HERTZ * rotation, number + OVERDAMPED, bearings=bearings)
-    kept = [_whirling(modes, number) for modes in found]
-    offers = {
-        method: campbell(case.reduced(method), HERTZ * rotation, number + 2 * OVERDAMPED, bearings=bearings)
-        for method in REDUCTIONS
-    }
-    fewest = min(len(modes.eigenvalues) for offered in offers.values() for modes in offered)
-    number = min(fewest, *(len(k) for k in kept))
-    exact = np.array([modes.eigenvalues[k[:number]] for modes, k in zip(found, kept, strict=True)])
-    direction = np.array([modes.direction[k[:number]] for modes, k in zip(found, kept, strict=True)])
+    speeds, missing = films.reachable(list(np.union1d(HERTZ * rotation, [case.train.speed])))
+    rated, number = speeds.index(case.train.speed), 2 * count
+    last = max(np.searchsorted(speeds, HERTZ * highest * (1.0 + 1e-9)), rated + 1)
+    tracks = follow(modes_on(case.shaft, films, number + OVERDAMPED), speeds[:last], rated, number + OVERDAMPED)
+    exact, direction = _whirling(tracks, rated, number)
+    shown = slice(0, None) if speeds[last - 1] <= HERTZ * highest * (1.0 + 1e-9) else slice(0, rated)
+    exact, direction, speeds = exact[shown], direction[shown], speeds[:last][shown]
     values = {FULL: exact}
-    for method, offered in offers.items():
-        values[method] = np.array([matched(a, b.eigenvalues) for a, b in zip(exact, offered, strict=True)])
+    for method in REDUCTIONS:
+        modes_at = modes_on(case.reduced(method), films, number + 3 * OVERDAMPED)
+        offered = [modes_at(speed).eigenvalues for speed in speeds]
+        values[method] = np.array([_matched(a, b) for a, b in zip(exact, offered, strict=True)])
     eigenvalues = np.array(list(values.values()))
     error = np.abs(eigenvalues - eigenvalues[0]) / np.abs(eigenvalues[0])
     dims = ("shaft", "rotation", "mode")
@@ -120,18 +128,46 @@ def supported_data(case: LinearCase, count: int, highest: float) -> xr.Dataset:
                 {"units": "1", "long_name": "whirl direction, -1 backward to 1 forward"},
             ),
         },
-        _coordinates(list(values), rotation) | {"mode": np.arange(1, number + 1)},
+        _coordinates(list(values), np.array(speeds) / HERTZ) | {"mode": np.arange(1, exact.shape[1] + 1)},
         {
             "title": f"Campbell diagram on linearised films: {case.train.name}",
-            "films": case.films,
+            "films": case.films_over_speed,
             "degrees_of_freedom": case.size,
+            **({"missing": missing} if missing else {}),
         },
     )
 
 
-def _whirling(modes: WhirlModes, count: int) -> NDArray[np.intp]:
-    """The lowest modes that oscillate; pairs on their way to two real eigenvalues do not."""
-    return np.flatnonzero(modes.damping_ratio < STRONGEST_DAMPING)[:count]
+def modes_on(shaft: ShaftModel | ReducedShaft, films: OverSpeed, number: int) -> ModesAt:
+    """Modes of a shaft at a speed, on the films of that speed; each speed is computed once."""
+    return cache(lambda speed: whirl_modes(shaft, speed, number, bearings=films.at(speed).bearings))
+
+
+def _whirling(tracks: Tracks, rated: int, number: int) -> tuple[NDArray, NDArray]:
+    """Eigenvalues and whirl directions of modes that oscillate (speeds, modes), NaN where they do not.
+
+    First those of rated speed, then others that are lightly damped somewhere.
+    """
+    eigenvalues = tracks.of(lambda modes: modes.eigenvalues)
+    ratio = -eigenvalues.real / np.abs(eigenvalues)
+    eigenvalues = np.where(ratio < STRONGEST_DAMPING, eigenvalues, np.nan + 0j)
+    at_rated = np.flatnonzero(np.isfinite(eigenvalues[rated]))[:number]
+    highest = np.nanmax(eigenvalues[:, at_rated].imag)
+    known = np.isfinite(eigenvalues)
+    least = np.min(np.where(known, ratio, np.inf), axis=0)
+    low = np.min(np.where(known, eigenvalues.imag, np.inf), axis=0) < highest
+    others = np.flatnonzero((tracks.index[rated] < 0) & (least < LIGHT) & low)
+    chosen = [*at_rated, *others]
+    direction = np.where(known, tracks.of(lambda modes: modes.direction), np.nan)
+    return eigenvalues[:, chosen], direction[:, chosen]
+
+
+def _matched(exact: NDArray, offered: NDArray) -> NDArray:
+    """The offered eigenvalues that belong to the exact ones; NaN where there is none."""
+    known = np.isfinite(exact)
+    found = np.full(exact.shape, np.nan + 0j)
+    found[known] = matched(exact[known], offered)
+    return found
 
 
 def _coordinates(methods: list[str], rotation: Array) -> dict[str, object]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,9 +15,11 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
+from bearing_fmu.depths import LINEAR
+from fmus import port
 from orchestrator.fmi.folder import ensure_fmus, fmu_folder
 from orchestrator.fmi.trust import own_bearings, require_trust
-from orchestrator.linear.operating_point import OperatingPoint, bearing_data, operating_point
+from orchestrator.linear.operating_point import HERTZ, OperatingPoint, OverSpeed, bearing_data, operating_point, over_speed
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
@@ -50,9 +53,6 @@ FULL = "unreduced"
 
 LEAST_SIZE = 24
 """Degrees of freedom below which no shaft is reduced to half its own."""
-
-HERTZ = 2.0 * np.pi
-"""rad/s of one revolution a second."""
 
 
 @dataclass(frozen=True)
@@ -142,9 +142,19 @@ class LinearCase:
     @cached_property
     def operating_point(self) -> OperatingPoint:
         """Linearised bearings at rated speed; FMUs are built where missing."""
+        self._ensure()
+        return operating_point(self.scenario, self.train, self.request.fmus)
+
+    @contextmanager
+    def over_speed(self) -> Iterator[OverSpeed]:
+        """Yield linearised bearings at any speed; FMUs are built where missing."""
+        self._ensure()
+        with over_speed(self.scenario, self.train, self.request.fmus) as points:
+            yield points
+
+    def _ensure(self) -> None:
         require_trust(own_bearings(self.scenario), trust=self.request.trust)
         ensure_fmus(self.request.fmus, self.train, needed_depths(self.scenario, self.train), self.console)
-        return operating_point(self.scenario, self.train, self.request.fmus)
 
     @property
     def unbalance(self) -> NDArray[np.complex128]:
@@ -155,14 +165,34 @@ class LinearCase:
     @property
     def bearing_data(self) -> xr.Dataset:
         """Stiffness and damping of the bearings at the operating point."""
-        return bearing_data(self.operating_point, self.train, self.films)
+        return bearing_data({self.train.speed: self.operating_point}, self.train, self.films)
 
     @property
     def films(self) -> str:
         """The films in words."""
-        depths = {self.scenario.depth, *self.scenario.depth_at.values()}
-        name = self.scenario.depth.upper() if len(depths) == 1 else "mixed depths"
-        return f"films {name}, linearised at {self.train.speed / HERTZ:g} Hz"
+        return self.films_at(self.train.speed)
+
+    def films_at(self, speed: float) -> str:
+        """The films, linearised at a speed [rad/s], in words."""
+        return f"{self.bearings_in_words}, linearised at {speed / HERTZ:g} Hz"
+
+    @property
+    def films_over_speed(self) -> str:
+        """The films, solved anew at each speed, in words; those of depth linear are what they are."""
+        depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
+        constant = depths == {LINEAR.name} and not any(
+            len(port.coefficient_rows(seat.coefficients)) > 1 for seat in self.train.bearings
+        )
+        return f"{self.bearings_in_words}, {'the same' if constant else 'solved anew'} at every speed"
+
+    @property
+    def bearings_in_words(self) -> str:
+        """Modelling depth of the bearings in words."""
+        depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
+        if depths == {LINEAR.name}:
+            given = all(seat.coefficients for seat in self.train.bearings)
+            return f"stiffness and damping {'as given' if given else f'of films {self.scenario.linear_from.upper()}'}"
+        return f"films {depths.pop().upper() if len(depths) == 1 else 'of mixed depths'}"
 
 
 def linear_case(request: LinearRequest, console: Console, *, writes: bool = True) -> LinearCase:

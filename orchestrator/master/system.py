@@ -144,6 +144,10 @@ class System:
     def set_speed(self, speed: float) -> None:
         """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
         self._rotor_speed[0] = speed
+        self.set_film_speed(speed)
+
+    def set_film_speed(self, speed: float) -> None:
+        """Set the speed of the bearings alone, as `set_speed`."""
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
 
     def defect(self) -> Array:

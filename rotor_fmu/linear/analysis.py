@@ -17,6 +17,7 @@ from rotor_fmu.linear.free_whirl import (
 )
 from rotor_fmu.linear.harmonic import HarmonicResponse, unbalance_responses
 from rotor_fmu.linear.reduction_report import ReductionReport, matched, reduction_report
+from rotor_fmu.linear.tracking import ModesAt, Tracks, follow, modal_assurance
 from rotor_fmu.linear.whirl import LinearBearings, WhirlModes, campbell, half_axes, whirl_modes
 from rotor_fmu.reduction.reduce import DEFAULT_SIZE, METHODS, Method, ReducedShaft, reduce
 from rotor_fmu.shaft.matrices import ShaftModel, assemble
@@ -29,17 +30,21 @@ __all__ = [
     "HarmonicResponse",
     "LinearBearings",
     "Method",
+    "ModesAt",
     "ReducedShaft",
     "ReductionReport",
     "ShaftModel",
+    "Tracks",
     "WhirlBranches",
     "WhirlError",
     "WhirlModes",
     "campbell",
+    "follow",
     "free_branches",
     "half_axes",
     "irs_iterates",
     "matched",
+    "modal_assurance",
     "modal_truncation",
     "reduced_shaft",
     "reduction_report",

@@ -13,6 +13,7 @@ of the bearings, start positions of the rotor.  The steps are
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,7 +30,7 @@ from orchestrator.master.start.journal_position import (
 )
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import offset_names, start_names
-from rotor_fmu.train.train import Train
+from rotor_fmu.train.train import BearingSeat, Train
 
 Array = NDArray[np.float64]
 
@@ -97,7 +98,6 @@ def find_start(system: System, train: Train, speed: float) -> Start:
     """
     seats = train.bearings
     clearances = np.array([seat.clearance for seat in seats])
-    widths = np.array([seat.width for seat in seats])
     residual = np.array([[seat.residual_tilt_x, seat.residual_tilt_y] for seat in seats])
     system.set_speed(speed)
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
@@ -115,8 +115,7 @@ def find_start(system: System, train: Train, speed: float) -> Start:
         shape = offsets + film
     for bearing, offset in zip(system.bearings, offsets, strict=True):
         bearing.set_real(offset_names(), offset)
-    measure = np.column_stack([clearances, clearances, clearances / widths, clearances / widths])
-    static = _equilibrium(system, shape, measure)
+    static = _equilibrium(system, shape, _measure(seats))
     line = _line(system, train.nodes)
     system.rotor.set_parameters({"start.orbit": True})
     system.rotor_group.push()
@@ -129,6 +128,33 @@ def find_start(system: System, train: Train, speed: float) -> Start:
         sine=system.journals[:, 4:] / speed,
         static_line=line,
     )
+
+
+def rest_at(system: System, seats: Sequence[BearingSeat], speed: float, positions: Array) -> Array:
+    """Find the equilibrium on the films of another speed; the bearings stay where `find_start` has put them.
+
+    Parameters
+    ----------
+    system, seats
+        As left by `find_start`.
+    speed : float
+        Of the films, in rad/s; the shaft's rest does not depend on it.
+    positions : ndarray (bearings, 4)
+        Where the search starts, such as the equilibrium of a neighbouring speed.
+
+    Returns
+    -------
+    ndarray (bearings, 4)
+        Positions; `System.responses` holds the responses there.
+
+    Raises
+    ------
+    EquilibriumError
+        As `find_start`.
+    """
+    system.rotor.set_parameters({"start.from_law": True, "start.orbit": False})
+    system.set_film_speed(speed)
+    return _equilibrium(system, positions, _measure(seats))
 
 
 def apply_start(system: System, start: Start) -> None:
@@ -224,6 +250,13 @@ def _without_rigid_motion(system: System, shape: Array) -> Array:
         ]
     )
     return shape - rigid
+
+
+def _measure(seats: Sequence[BearingSeat]) -> Array:
+    """What steps of the journals are measured by (bearings, 4)."""
+    clearances = np.array([seat.clearance for seat in seats])
+    tilts = clearances / np.array([seat.width for seat in seats])
+    return np.column_stack([clearances, clearances, tilts, tilts])
 
 
 def _equilibrium(system: System, positions: Array, measure: Array) -> Array:

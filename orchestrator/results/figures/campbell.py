@@ -178,7 +178,7 @@ def supported_figure(data: xr.Dataset, train: Train) -> Figure:
     train : Train
         For name and rated speed.
     """
-    caption = f"{train.name}  ·  {data.attrs['films']}, the same at all speeds"
+    caption = f"{train.name}  ·  {data.attrs['films']}"
     figure = style.new_figure(13.0, 7.2, "Campbell diagram on linearised films", caption)
     panels = figure.subplot_mosaic([["diagram", "damping"], ["diagram", "error"]], width_ratios=[1.25, 1.0])
     rotation = data["rotation"].values
