@@ -12,7 +12,7 @@ PROCESS_DIED = 8
 
 
 class Outcome(Enum):
-    """The end of a run: but for `FINISHED` and `UNRESOLVED` the record stops early.
+    """The end of a run: but for `FINISHED`, `UNRESOLVED` and `UNSTABLE` the record stops early.
 
     Attributes
     ----------
@@ -69,6 +69,12 @@ class Outcome(Enum):
         10,
         "The run reached its end, but the exchange of rotor and bearings was not resolved and its numbers "
         "mean nothing; take a smaller step or the coupling linear-implicit.",
+    )
+    UNSTABLE = (
+        "unstable",
+        14,
+        "The train is unstable: its whirl grew by itself before any event, and there is no steady state. "
+        "Change speed, load, clearance, viscosity or bearing; bladeloss stability shows the threshold.",
     )
     NOT_FINITE = (
         "not-finite",

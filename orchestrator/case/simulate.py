@@ -30,10 +30,11 @@ from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, S
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
+from orchestrator.results.least_damped import least_damped_attributes
 from orchestrator.results.ledger import with_ledger
 from orchestrator.results.record import empty_record, make_record, outcome_attributes
 from orchestrator.results.result import Result, Stopwatch, Timing
-from orchestrator.results.validity import unresolved
+from orchestrator.results.validity import grown, unresolved
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of
@@ -183,6 +184,7 @@ class _TimeLoop:
             self._keepers["ledger"] = self._ledger
             self._observers.append(self._ledger)
         self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
+        self._least_damped = least_damped_attributes(train, case.units.speed, start.tangents)
         self._reduction = (
             system.rotor.get_string(_REDUCTION) if _REDUCTION in system.rotor.file.variables else ""
         )
@@ -224,8 +226,11 @@ class _TimeLoop:
         timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
         record = self._record(self._recorder, outcome, message)
-        if outcome.ok and (message := unresolved(record)):
-            outcome = Outcome.UNRESOLVED
+        failed = Outcome.UNRESOLVED, unresolved(record) if outcome.ok else ""
+        if outcome.ok and not failed[1]:
+            failed = Outcome.UNSTABLE, grown(record)
+        if failed[1]:
+            outcome, message = failed
             record = record.assign_attrs(outcome_attributes(outcome, message))
         evaluations = self._system.bearing_group.evaluations
         record = record.assign_attrs(end.counts.attributes(evaluations))
@@ -245,4 +250,5 @@ class _TimeLoop:
         record = make_record(
             recorder, self._start, case.scenario, case.train, outcome, message, self._provenance
         )
+        record = record.assign_attrs(self._least_damped)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

@@ -1,14 +1,15 @@
-"""The linear investigations on the command line: campbell, modes, harmonic, reductions."""
+"""The linear investigations on the command line: campbell, modes, stability, harmonic, reductions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from orchestrator.cli.options import DEPTH_CHOICE, Depth, FigureFormats, Fmus, Format, Trust, guarded
+from orchestrator.cli.options import DEPTH_CHOICE, Depth, FigureFormats, Fmus, Format, Trust, command_of
 from orchestrator.cli.wrong_use import one_of
 
 if TYPE_CHECKING:
@@ -36,7 +37,14 @@ Out = Annotated[
     typer.Option(metavar="DIR", help="Results; by default results/<NAME>-<COMMAND>."),
 ]
 Highest = Annotated[
-    float, typer.Option("--to", metavar="HZ", min=1.0, max=1000.0, help="Highest speed of rotation.")
+    float | None,
+    typer.Option(
+        "--to",
+        metavar="HZ",
+        min=0.1,
+        max=5000.0,
+        help="Highest speed of rotation; by default twice the rated one.",
+    ),
 ]
 EXIT = """\
 [bold]Exit status[/bold]
@@ -49,19 +57,26 @@ CAMPBELL_HELP = (
     "Campbell diagram: whirl frequencies over the speed of rotation.\n\n"
     "Of the free shaft, unreduced and reduced by IRS (default, and plain as published), Guyan and "
     "Craig-Bampton (CMS) to equal size, with the largest errors of the bending frequencies as a table, and "
-    "their fall over the iterations of IRS. With [bold]--supported[/bold] on the films, linearised where the "
-    "train runs at its rated speed."
+    "their fall over the iterations of IRS. With [bold]--supported[/bold] on the films, solved anew "
+    "at every speed; modes are followed through crossings."
 )
 MODES_HELP = (
-    "Mode shapes of the supported train at rated speed: frequency, damping ratio, whirl direction.\n\n"
+    "Mode shapes of the supported train at rated or any speed: frequency, damping ratio, whirl direction.\n\n"
     "The films are linearised at the static equilibrium, which is found through the FMUs. A negative damping "
     "ratio means that the train is unstable."
 )
+STABILITY_HELP = (
+    "Stability and critical speeds: is the train stable, up to which speed, what does it pass through?\n\n"
+    "Damping ratio and logarithmic decrement of the least damped modes over speed, on films solved anew at "
+    "each; the threshold of instability; critical speeds, the peaks of the unbalance response, with "
+    "amplification factor and separation margin (API 684); and the map of undamped critical speeds over the "
+    "stiffness of the bearings."
+)
 HARMONIC_HELP = (
     "Unbalance response over the speed of rotation, unreduced and reduced.\n\n"
-    "Amplitudes (largest half axis of the orbit) at bearings and wheels and the largest of the shaft, and "
-    "forces of the bearings. Films are linearised at rated speed and kept: far from it the curve tells about "
-    "these springs and dampers, not about the films."
+    "Amplitudes (largest half axis of the orbit) at bearings and wheels and the largest of the shaft, forces "
+    "of the bearings, and amplitude and phase at the probes of each bearing (Bode diagram). Films are solved "
+    "anew at every speed; speeds are close where resonances are sharp."
 )
 REDUCTIONS_HELP = (
     "What a reduction costs: each beside the unreduced train.\n\n"
@@ -71,126 +86,136 @@ REDUCTIONS_HELP = (
 )
 
 
-def register(app: typer.Typer) -> None:
-    """Add the commands."""
-    app.command(help=CAMPBELL_HELP, epilog=_epilog("campbell", "campbell turbine --supported"))(campbell)
-    app.command(help=MODES_HELP, epilog=_epilog("modes", "modes small --count 6"))(modes)
-    app.command(help=HARMONIC_HELP, epilog=_epilog("harmonic", "harmonic paper --depth v2 --to 30"))(harmonic)
-    app.command(help=REDUCTIONS_HELP, epilog=_epilog("reductions", "reductions turbine"))(reductions)
+@dataclass(frozen=True)
+class LinearOptions:
+    """Options of every linear investigation; see `orchestrator.linear.case.LinearRequest`."""
 
+    source: Source = "paper"
+    depth: FilmDepth = None
+    out: Out = None
+    fmus: Fmus = None
+    trust: Trust = False
 
-def campbell(
-    source: Source = "paper",
-    supported: Annotated[
-        bool, typer.Option("--supported", help="On linearised films instead of free-free.")
-    ] = False,
-    count: Annotated[
-        int, typer.Option(metavar="N", min=1, max=20, help="Bending frequencies in each direction.")
-    ] = 8,
-    highest: Highest = 50.0,
-    depth: FilmDepth = None,
-    out: Out = None,
-    fmus: Fmus = None,
-    formats: FigureFormats = None,
-    trust: Trust = False,
-) -> None:
-    """Campbell diagram, see `CAMPBELL_HELP`."""
-
-    def work(request: LinearRequest, console: Console) -> int:
-        from orchestrator.commands.campbell import run
-
-        return run(request, console, supported=supported, count=count, highest=highest)
-
-    name = "campbell-supported" if supported else "campbell"
-    _run(work, name, source, depth, out, fmus, formats, trust)
-
-
-def modes(
-    source: Source = "paper",
-    count: Annotated[
-        int, typer.Option(metavar="N", min=1, max=40, help="Modes, from the lowest frequency.")
-    ] = 12,
-    depth: FilmDepth = None,
-    out: Out = None,
-    fmus: Fmus = None,
-    formats: FigureFormats = None,
-    trust: Trust = False,
-) -> None:
-    """Mode shapes, see `MODES_HELP`."""
-
-    def work(request: LinearRequest, console: Console) -> int:
-        from orchestrator.commands.modes import run
-
-        return run(request, console, count=count)
-
-    _run(work, "modes", source, depth, out, fmus, formats, trust)
-
-
-def harmonic(
-    source: Source = "paper",
-    highest: Highest = 50.0,
-    depth: FilmDepth = None,
-    out: Out = None,
-    fmus: Fmus = None,
-    formats: FigureFormats = None,
-    trust: Trust = False,
-) -> None:
-    """Unbalance response, see `HARMONIC_HELP`."""
-
-    def work(request: LinearRequest, console: Console) -> int:
-        from orchestrator.commands.harmonic import run
-
-        return run(request, console, highest=highest)
-
-    _run(work, "harmonic", source, depth, out, fmus, formats, trust)
-
-
-def reductions(
-    source: Source = "paper",
-    depth: FilmDepth = None,
-    out: Out = None,
-    fmus: Fmus = None,
-    trust: Trust = False,
-) -> None:
-    """Errors of reductions, see `REDUCTIONS_HELP`."""
-
-    def work(request: LinearRequest, console: Console) -> int:
-        from orchestrator.commands.reductions import run
-
-        return run(request, console)
-
-    _run(work, "reductions", source, depth, out, fmus, None, trust)
-
-
-def _run(
-    work: Callable[[LinearRequest, Console], int],
-    name: str,
-    source: str,
-    depth: Depth | None,
-    out: Path | None,
-    fmus: Path | None,
-    formats: list[Format] | None,
-    trust: bool,
-) -> None:
-    """Do a command's work on a scenario or a train."""
-
-    def guarded_work() -> int:
-        from rich.console import Console
-
+    def request(self, command: str, formats: list[Format] | None = None) -> LinearRequest:
+        """What is asked for."""
         from orchestrator.fmi.folder import fmu_folder
         from orchestrator.linear.case import LinearRequest
 
         kinds = tuple(str(kind) for kind in formats or [Format.PNG])
-        request = LinearRequest(name, source, depth and str(depth), out, fmus or fmu_folder(), kinds, trust)
-        return work(request, Console())
-
-    guarded(guarded_work)
+        depth, fmus = self.depth and str(self.depth), self.fmus or fmu_folder()
+        return LinearRequest(command, self.source, depth, self.out, fmus, kinds, self.trust)
 
 
-def _epilog(command: str, example: str) -> str:
-    shown = f"bladeloss {command}"
-    return (
+@dataclass(frozen=True)
+class CampbellOptions(LinearOptions):
+    """Options of campbell."""
+
+    supported: Annotated[
+        bool, typer.Option("--supported", help="On linearised films instead of free-free.")
+    ] = False
+    count: Annotated[
+        int, typer.Option(metavar="N", min=1, max=20, help="Bending frequencies in each direction.")
+    ] = 8
+    highest: Highest = None
+    formats: FigureFormats = None
+
+
+@dataclass(frozen=True)
+class ModesOptions(LinearOptions):
+    """Options of modes."""
+
+    count: Annotated[
+        int, typer.Option(metavar="N", min=1, max=40, help="Modes, from the lowest frequency.")
+    ] = 12
+    speed: Annotated[
+        float | None,
+        typer.Option(metavar="HZ", min=0.0, max=5000.0, help="Speed of rotation; by default the rated one."),
+    ] = None
+    formats: FigureFormats = None
+
+
+@dataclass(frozen=True)
+class OverSpeedOptions(LinearOptions):
+    """Options of stability."""
+
+    highest: Highest = None
+    formats: FigureFormats = None
+
+
+@dataclass(frozen=True)
+class HarmonicOptions(OverSpeedOptions):
+    """Options of harmonic."""
+
+    probes: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--probe", metavar="DEG", min=-360.0, max=360.0,
+            help="Angle of a probe at each bearing from x to y; repeatable, by default 45 and 135.",
+        ),
+    ] = None  # fmt: skip
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands."""
+    _add(app, "campbell", CAMPBELL_HELP, "campbell turbine --supported", CampbellOptions, campbell)
+    _add(app, "modes", MODES_HELP, "modes small --count 6", ModesOptions, modes)
+    _add(app, "stability", STABILITY_HELP, "stability small --depth v2", OverSpeedOptions, stability)
+    _add(app, "harmonic", HARMONIC_HELP, "harmonic paper --depth v2 --to 30", HarmonicOptions, harmonic)
+    _add(app, "reductions", REDUCTIONS_HELP, "reductions turbine", LinearOptions, reductions)
+
+
+def campbell(options: CampbellOptions) -> int:
+    """Campbell diagram, see `CAMPBELL_HELP`."""
+    from orchestrator.commands.campbell import run
+
+    request = options.request("campbell-supported" if options.supported else "campbell", options.formats)
+    return run(request, _console(), supported=options.supported, count=options.count, highest=options.highest)
+
+
+def modes(options: ModesOptions) -> int:
+    """Mode shapes, see `MODES_HELP`."""
+    from orchestrator.commands.modes import run
+
+    return run(
+        options.request("modes", options.formats), _console(), count=options.count, hertz=options.speed
+    )
+
+
+def stability(options: OverSpeedOptions) -> int:
+    """Stability and critical speeds, see `STABILITY_HELP`."""
+    from orchestrator.commands.stability import run
+
+    return run(options.request("stability", options.formats), _console(), highest=options.highest)
+
+
+def harmonic(options: HarmonicOptions) -> int:
+    """Unbalance response, see `HARMONIC_HELP`."""
+    from orchestrator.commands.harmonic import run
+
+    request = options.request("harmonic", options.formats)
+    return run(request, _console(), highest=options.highest, probes=options.probes or [45.0, 135.0])
+
+
+def reductions(options: LinearOptions) -> int:
+    """Errors of reductions, see `REDUCTIONS_HELP`."""
+    from orchestrator.commands.reductions import run
+
+    return run(options.request("reductions"), _console())
+
+
+def _add(
+    app: typer.Typer, name: str, text: str, example: str, options: type, work: Callable[..., int]
+) -> None:
+    shown = f"bladeloss {name}"
+    epilog = (
         "[bold]Examples[/bold]\n\n"
         f"  {shown:44s} the reference scenario\n"
         f"  {'bladeloss ' + example:44s} another\n\n{EXIT}"
     )
+    app.command(name=name, help=text, epilog=epilog)(command_of(options, work))
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    return Console()

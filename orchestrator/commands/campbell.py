@@ -27,7 +27,9 @@ TOLERANCE = 1e-4
 
 
 @one_blas_thread()
-def run(request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float | None) -> int:
+def run(
+    request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float | None
+) -> int:
     """Compute, print and write the diagram; returns the exit status.
 
     Raises
@@ -36,23 +38,23 @@ def run(request: LinearRequest, console: Console, *, supported: bool, count: int
         For anything wrong with the input, or modes that the shaft does not have.
     """
     case = linear_case(request, console)
-    highest = highest or 2.0 * case.train.speed / HERTZ
+    top = highest or 2.0 * case.train.speed / HERTZ
     if supported:
         with case.over_speed() as films:
-            data = supported_data(case, films, count, highest)
+            data = supported_data(case, films, count, top)
             points = {HERTZ * hertz: films.at(HERTZ * hertz) for hertz in data["rotation"].values}
         bearings = bearing_data(points, case.train, case.films_over_speed)
         table = supported_table(case, data)
         write_results(case, [data, bearings], table, supported_figure(data, case.train))
         return 0
     try:
-        data, iterations = free_data(case, count, highest)
+        data, iterations = free_data(case, count, top)
     except WhirlError as error:
-        has = _bending_modes(case, count, highest)
+        has = _bending_modes(case, count, top)
         if has in (0, count):
             raise OrchestratorError(f"--count {count}: {error}") from None
         console.print(f"The shaft has {has} bending modes in each direction, not {count}.", highlight=False)
-        data, iterations = free_data(case, has, highest)
+        data, iterations = free_data(case, has, top)
     write_results(case, [data, iterations], free_table(case, data), free_figure(data, iterations, case.train))
     return 0
 

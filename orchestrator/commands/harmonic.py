@@ -1,7 +1,8 @@
-"""``bladeloss harmonic``: unbalance response over speed on the bearings of the operating point."""
+"""``bladeloss harmonic``: unbalance response over speed, on the films of each speed."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,9 +13,12 @@ from rich.table import Table
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import FULL, HERTZ, LinearCase, linear_case, write_results
-from orchestrator.linear.tables import COLUMNS_EXPLAINED, shaft_column, table_of
+from orchestrator.linear.operating_point import bearing_data
+from orchestrator.linear.response import Response, followed, resonant_speeds
+from orchestrator.linear.tables import COLUMNS_EXPLAINED, shaft_column, table_of, warning
+from orchestrator.results.figures.bode import bode_figure
 from orchestrator.results.figures.harmonic import harmonic_figure
-from rotor_fmu.linear.analysis import HarmonicResponse, half_axes, unbalance_responses
+from rotor_fmu.linear.analysis import half_axes, least_damped
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -23,13 +27,21 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-STEP = 0.25
-"""Interval of the axis of speed [Hz]; the rated speed is added."""
-
 
 @one_blas_thread()
-def run(request: LinearRequest, console: Console, *, highest: float) -> int:
+def run(
+    request: LinearRequest, console: Console, *, highest: float | None = None, probes: Sequence[float] = ()
+) -> int:
     """Compute, print and write the response; returns the exit status.
+
+    Parameters
+    ----------
+    request, console : LinearRequest, Console
+        What was asked for, and for output.
+    highest : float, optional
+        Speed of rotation [Hz]; by default twice the rated one.
+    probes : sequence of float
+        Angles of probes at each bearing, from x to y [degrees].
 
     Raises
     ------
@@ -42,18 +54,27 @@ def run(request: LinearRequest, console: Console, *, highest: float) -> int:
             f"{request.source}: no wheel of train {case.train.name} has an unbalance, so nothing responds; "
             "give the train wheels, or the scenario unbalance.grade or unbalance.at"
         )
-    rated = case.train.speed / HERTZ
-    rotation = np.arange(1.0, np.ceil(highest / STEP) + 1.0) * STEP
-    if rated <= highest:
-        rotation = np.union1d(rotation.round(9), [round(rated, 9)])
-    shaft, places, forces = harmonic_data(case, rotation)
-    figure = harmonic_figure(shaft, places, forces, case.train)
+    with case.over_speed() as films:
+        speeds, tracks, missing = followed(case, films, highest or 2.0 * case.train.speed / HERTZ)
+        responses = {name: Response(case, shaft, films) for name, shaft in case.shafts.items()}
+        grid = resonant_speeds(case, films, responses[FULL], speeds, tracks)
+        shaft, places, forces = harmonic_data(case, responses, grid)
+        phasors = probe_data(case, responses[FULL], grid, probes)
+        bearings = bearing_data({s: films.at(s) for s in speeds}, case.train, case.films_over_speed)
+        worst = least_damped(case.shaft, case.train.speed, films.at(case.train.speed).bearings)
+    figures = {
+        request.command: harmonic_figure(shaft, places, forces, case.train),
+        f"{request.command}-bode": bode_figure(phasors, case.train),
+    }
+    first = "\n".join(filter(None, [warning(worst, case.train.speed), missing and f"Left out: {missing}."]))
     table = harmonic_table(case, shaft, places, forces)
-    write_results(case, [shaft, places, forces, case.bearing_data], table, figure)
+    write_results(case, [shaft, places, phasors, forces, bearings], table, figures, first=first)
     return 0
 
 
-def harmonic_data(case: LinearCase, rotation: Array) -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
+def harmonic_data(
+    case: LinearCase, responses: Mapping[str, Response], grid: Array
+) -> tuple[xr.Dataset, xr.Dataset, xr.Dataset]:
     """Largest amplitude of the shaft; amplitudes at bearings and wheels; forces of the bearings.
 
     Over (shaft, rotation), (shaft, rotation, place) and (shaft, rotation, bearing).
@@ -62,18 +83,15 @@ def harmonic_data(case: LinearCase, rotation: Array) -> tuple[xr.Dataset, xr.Dat
     nodes = [seat.node for seat in train.bearings] + [wheel.node for wheel in train.wheels]
     names = [seat.name for seat in train.bearings] + [wheel.name for wheel in train.wheels]
     kinds = ["bearing"] * len(train.bearings) + ["wheel"] * len(train.wheels)
-    bearings, z = case.operating_point.bearings, np.array(train.z)
-    amplitude, force = [], []
-    for shaft in case.shafts.values():
-        found = unbalance_responses(shaft, HERTZ * rotation, bearings, case.unbalance)
-        amplitude.append([_amplitudes(response) for response in found])
-        force.append([half_axes(r.wrench[:, 0], r.wrench[:, 1])[0] for r in found])
-    line, pull = np.array(amplitude), np.array(force)
+    z = np.array(train.z)
+    line = np.array([[response.amplitudes(speed) for speed in grid] for response in responses.values()])
+    wrenches = np.array([[response.at(speed).wrench for speed in grid] for response in responses.values()])
+    pull = half_axes(wrenches[..., 0], wrenches[..., 1])[0]
     axes = {
-        "shaft": list(case.shafts),
-        "rotation": ("rotation", rotation, {"units": "Hz", "long_name": "speed of rotation"}),
+        "shaft": list(responses),
+        "rotation": ("rotation", grid / HERTZ, {"units": "Hz", "long_name": "speed of rotation"}),
     }
-    attributes = {"films": case.films, "degrees_of_freedom": case.size}
+    attributes = {"films": case.films_over_speed, "degrees_of_freedom": case.size}
 
     def described(values: Array, unit: str, label: str, *more: str) -> tuple[tuple[str, ...], Array, dict]:
         return ("shaft", "rotation", *more), values, {"units": unit, "long_name": label}
@@ -100,9 +118,33 @@ def harmonic_data(case: LinearCase, rotation: Array) -> tuple[xr.Dataset, xr.Dat
     )
 
 
-def _amplitudes(response: HarmonicResponse) -> Array:
-    """Largest half axis of every node's orbit, (nodes,)."""
-    return half_axes(response.shape[0::4], response.shape[1::4])[0]
+def probe_data(case: LinearCase, response: Response, grid: Array, probes: Sequence[float]) -> xr.Dataset:
+    """Complex amplitudes of the unreduced shaft at the bearings, along x, y and the probes.
+
+    Displacement = amplitude cos(speed t + phase) (rotation, bearing, probe), where the unbalance with the
+    phase 0 lies at x at t = 0.
+    """
+    angles = np.radians([0.0, 90.0, *probes])
+    x, y = (np.array([response.at(speed).shape[i::4] for speed in grid]) for i in range(2))
+    nodes = [seat.node for seat in case.train.bearings]
+    phasor = x[:, nodes, None] * np.cos(angles) + y[:, nodes, None] * np.sin(angles)
+    dims = ("rotation", "bearing", "probe")
+    return xr.Dataset(
+        {
+            "amplitude": (dims, np.abs(phasor), {"units": "m", "long_name": "amplitude along the probe"}),
+            "phase": (dims, np.angle(phasor), {"units": "rad", "long_name": "phase, positive: leads"}),
+        },
+        {
+            "rotation": ("rotation", grid / HERTZ, {"units": "Hz", "long_name": "speed of rotation"}),
+            "bearing": [seat.name for seat in case.train.bearings],
+            "probe": ["x", "y", *(f"{angle:g} deg" for angle in probes)],
+        },
+        {
+            "title": f"Complex amplitudes from unbalance: {case.train.name}",
+            "name": "probes",
+            "films": case.films_over_speed,
+        },
+    )
 
 
 def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forces: xr.Dataset) -> Table:
@@ -112,7 +154,7 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
     here, top = float(shaft["rotation"][at]), float(shaft["rotation"][-1])
     reduced = [str(name) for name in shaft["shaft"].values[1:]]
     table = table_of(
-        f"{case.train.name} on {case.films}: unbalance response at {here:g} Hz, its peak up to "
+        f"{case.train.name} on {case.films_over_speed}: unbalance response at {here:g} Hz, its peak up to "
         f"{top:g} Hz, and errors of reduced shafts at {here:g} Hz",
         narrow=True,
     )

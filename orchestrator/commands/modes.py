@@ -10,9 +10,10 @@ from rich.table import Table
 
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.case import HERTZ, LinearCase, linear_case, write_results
-from orchestrator.linear.tables import table_of, whirl_name
+from orchestrator.linear.operating_point import OperatingPoint, bearing_data
+from orchestrator.linear.tables import table_of, warning, whirl_name
 from orchestrator.results.figures.mode_shapes import mode_shapes_figure
-from rotor_fmu.linear.analysis import half_axes, whirl_modes
+from rotor_fmu.linear.analysis import half_axes, least_damped, log_decrement, whirl_modes
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @one_blas_thread()
-def run(request: LinearRequest, console: Console, *, count: int) -> int:
+def run(request: LinearRequest, console: Console, *, count: int, hertz: float | None = None) -> int:
     """Compute, print and write the modes; returns the exit status.
 
     Raises
@@ -30,17 +31,24 @@ def run(request: LinearRequest, console: Console, *, count: int) -> int:
         For anything wrong with the input; `EquilibriumError` when there is no operating point.
     """
     case = linear_case(request, console)
-    data = mode_data(case, count)
-    write_results(
-        case, [data, case.bearing_data], mode_table(case, data), mode_shapes_figure(data, case.train)
-    )
+    speed = case.train.speed if hertz is None else HERTZ * hertz
+    if hertz is None:
+        point = case.operating_point
+    else:
+        with case.over_speed() as films:
+            point = films.at(speed)
+    data = mode_data(case, point, speed, count)
+    worst = least_damped(case.shaft, speed, point.bearings)
+    bearings = bearing_data({speed: point}, case.train, case.films_at(speed))
+    figure = mode_shapes_figure(data, case.train)
+    write_results(case, [data, bearings], mode_table(case, data), figure, first=warning(worst, speed))
     return 0
 
 
-def mode_data(case: LinearCase, count: int) -> xr.Dataset:
-    """Modes of the unreduced shaft on its films at rated speed (mode, node)."""
+def mode_data(case: LinearCase, point: OperatingPoint, speed: float, count: int) -> xr.Dataset:
+    """Modes of the unreduced shaft on its films at a speed [rad/s] (mode, node)."""
     train = case.train
-    modes = whirl_modes(case.shaft, train.speed, count, bearings=case.operating_point.bearings)
+    modes = whirl_modes(case.shaft, speed, count, bearings=point.bearings)
     shapes = modes.shapes.reshape(train.nodes, 4, -1)
     shapes = shapes / half_axes(shapes[:, 0], shapes[:, 1])[0].max(axis=0)
     dims = ("mode", "node")
@@ -56,6 +64,7 @@ def mode_data(case: LinearCase, count: int) -> xr.Dataset:
     single = {
         "frequency": (modes.frequency / HERTZ, "Hz", "damped frequency"),
         "damping_ratio": (modes.damping_ratio, "1", "damping ratio, negative if unstable"),
+        "log_decrement": (log_decrement(modes), "1", "logarithmic decrement, negative if unstable"),
         "growth_rate": (modes.eigenvalues.real, "1/s", "real part of the eigenvalue"),
         "whirl_direction": (modes.direction, "1", "whirl direction, -1 backward to 1 forward"),
     }
@@ -69,16 +78,24 @@ def mode_data(case: LinearCase, count: int) -> xr.Dataset:
         },
         {
             "title": f"Modes of the supported train: {train.name}",
-            "films": case.films,
-            "rotation": train.speed / HERTZ,
+            "films": case.films_at(speed),
+            "rotation": speed / HERTZ,
         },
     )
 
 
 def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
     """Frequency, damping ratio and whirl, and where the shape is largest."""
-    table = table_of(f"{case.train.name} on {case.films}, unreduced shaft")
-    for name in ("mode", "Hz", "damping\nratio", "whirl", "largest at\nz \\[m]", "nearest\nbearing"):
+    table = table_of(f"{case.train.name} on {data.attrs['films']}, unreduced shaft")
+    for name in (
+        "mode",
+        "Hz",
+        "damping\nratio",
+        "log.\ndecr.",
+        "whirl",
+        "largest at\nz \\[m]",
+        "nearest\nbearing",
+    ):
         table.add_column(name, justify="left" if name in ("whirl", "nearest\nbearing") else "right")
     z = data["z"].values
     x, y = (data[f"{axis}_real"].values + 1j * data[f"{axis}_imaginary"].values for axis in "xy")
@@ -91,6 +108,7 @@ def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
             str(mode),
             f"{float(data['frequency'][k]):.3f}",
             f"[bold red]{ratio:.4f}[/bold red]" if ratio < 0.0 else f"{ratio:.4f}",
+            f"{float(data['log_decrement'][k]):.3f}",
             whirl_name(float(data["whirl_direction"][k])),
             f"{place:.2f}",
             seat.name,

@@ -103,8 +103,10 @@ def supported_data(case: LinearCase, films: OverSpeed, count: int, highest: floa
     rotation = np.linspace(0.0, highest, SUPPORTED_STEPS + 1)
     speeds, missing = films.reachable(list(np.union1d(HERTZ * rotation, [case.train.speed])))
     rated, number = speeds.index(case.train.speed), 2 * count
-    last = max(np.searchsorted(speeds, HERTZ * highest * (1.0 + 1e-9)), rated + 1)
-    tracks = follow(modes_on(case.shaft, films, number + OVERDAMPED), speeds[:last], rated, number + OVERDAMPED)
+    last = max(int(np.searchsorted(speeds, HERTZ * highest * (1.0 + 1e-9))), rated + 1)
+    tracks = follow(
+        modes_on(case.shaft, films, number + OVERDAMPED), speeds[:last], rated, number + OVERDAMPED
+    )
     exact, direction = _whirling(tracks, rated, number)
     shown = slice(0, None) if speeds[last - 1] <= HERTZ * highest * (1.0 + 1e-9) else slice(0, rated)
     exact, direction, speeds = exact[shown], direction[shown], speeds[:last][shown]

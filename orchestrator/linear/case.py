@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,7 +19,14 @@ from bearing_fmu.depths import LINEAR
 from fmus import port
 from orchestrator.fmi.folder import ensure_fmus, fmu_folder
 from orchestrator.fmi.trust import own_bearings, require_trust
-from orchestrator.linear.operating_point import HERTZ, OperatingPoint, OverSpeed, bearing_data, operating_point, over_speed
+from orchestrator.linear.operating_point import (
+    HERTZ,
+    OperatingPoint,
+    OverSpeed,
+    bearing_data,
+    operating_point,
+    over_speed,
+)
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, result_folder
 from orchestrator.results.record_files import netcdf
@@ -191,7 +198,8 @@ class LinearCase:
         depths = {self.scenario.depth_of(seat.name) for seat in self.train.bearings}
         if depths == {LINEAR.name}:
             given = all(seat.coefficients for seat in self.train.bearings)
-            return f"stiffness and damping {'as given' if given else f'of films {self.scenario.linear_from.upper()}'}"
+            source = "as given" if given else f"of films {self.scenario.linear_from.upper()}"
+            return f"stiffness and damping {source}"
         return f"films {depths.pop().upper() if len(depths) == 1 else 'of mixed depths'}"
 
 
@@ -218,8 +226,15 @@ def linear_case(request: LinearRequest, console: Console, *, writes: bool = True
     return LinearCase(request, scenario, train, console)
 
 
-def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, figure: Figure | None) -> None:
-    """Write the data as NetCDF and CSV, the table as text and the figure; say what and where.
+def write_results(
+    case: LinearCase,
+    data: Sequence[xr.Dataset],
+    tables: Table | Sequence[Table],
+    figures: Figure | Mapping[str, Figure] | None,
+    *,
+    first: str = "",
+) -> None:
+    """Write the data as NetCDF and CSV, the tables as text and the figures; say what and where.
 
     Parameters
     ----------
@@ -227,13 +242,17 @@ def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, fi
         What was investigated.
     data : sequence of xarray.Dataset
         The first is named as the command, others by their attribute ``name``.
-    table : rich.table.Table
+    tables : rich.table.Table or sequence of them
         Printed, and written as text.
-    figure : matplotlib.figure.Figure or None
-        Drawn in every format asked for.
+    figures : matplotlib.figure.Figure, or mapping of them by name, or None
+        Drawn in every format asked for; one is named as the command.
+    first : str
+        Said before the tables.
     """
     request = case.request
-    case.console.print(table)
+    shown = [tables] if isinstance(tables, Table) else list(tables)
+    drawn = dict(figures) if isinstance(figures, Mapping) else {request.command: figures}
+    say(case.console, first, shown)
     written: list[str] = []
     with room_for(data, request.folder), result_folder(request.folder) as fresh:
         for index, dataset in enumerate(data):
@@ -245,15 +264,24 @@ def write_results(case: LinearCase, data: Sequence[xr.Dataset], table: Table, fi
             write_table(described, fresh / f"{name}.csv")
             written += [f"{name}.nc", f"{name}.csv"]
         with (fresh / f"{request.command}.txt").open("w", encoding="utf-8") as file:
-            Console(file=file, width=120).print(table)
+            say(Console(file=file, width=120), first, shown)
         written.append(f"{request.command}.txt")
-        for kind in request.formats if figure is not None else ():
-            assert figure is not None
-            FigureCanvasAgg(figure)
-            figure.savefig(fresh / f"{request.command}.{kind}")
-            written.append(f"{request.command}.{kind}")
+        for name, figure in drawn.items():
+            for kind in request.formats if figure is not None else ():
+                assert figure is not None
+                FigureCanvasAgg(figure)
+                figure.savefig(fresh / f"{name}.{kind}")
+                written.append(f"{name}.{kind}")
     for name in written:
         case.console.print(str(request.folder / name), highlight=False, soft_wrap=True)
+
+
+def say(console: Console, first: str, tables: Sequence[Table]) -> None:
+    """Print a text, red where it says that the train is unstable, and tables."""
+    for line in first.splitlines():
+        console.print(line, style="bold red" if line.startswith("UNSTABLE") else "", highlight=False)
+    for table in tables:
+        console.print(table)
 
 
 def write_table(data: xr.Dataset, path: Path) -> None:

@@ -156,7 +156,7 @@ def operating_point(scenario: Scenario, train: Train, fmus: Path) -> OperatingPo
 
 
 def bearing_data(points: Mapping[float, OperatingPoint], train: Train, films: str) -> xr.Dataset:
-    """Stiffness and damping of a train's bearings by speed [rad/s] (rotation, bearing, wrench, displacement)."""
+    """Stiffness and damping of a train's bearings over speed, of points by speed in rad/s."""
     dims = ("rotation", "bearing", "wrench", "displacement")
     stiffness, damping = (
         np.array([getattr(point.bearings, name) for point in points.values()])

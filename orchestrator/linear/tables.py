@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 from rich import box
 from rich.table import Table
+
+from rotor_fmu.linear.analysis import LeastDamped
 
 PLANAR = 0.2
 """Whirl direction below which a mode is called planar."""
@@ -30,6 +34,16 @@ def whirl_name(direction: float) -> str:
     if abs(direction) < PLANAR:
         return f"planar   {direction:+.2f}"
     return f"{'forward' if direction > 0.0 else 'backward':8s} {direction:+.2f}"
+
+
+def warning(mode: LeastDamped, speed: float) -> str:
+    """The line for a train that is unstable at a speed [rad/s], nothing for a stable one."""
+    if mode.stable:
+        return ""
+    return (
+        f"UNSTABLE at {speed / (2.0 * math.pi):.4g} Hz of rotation: the mode of {mode} grows. "
+        "What is linear here is no motion that lasts."
+    )
 
 
 def shaft_column(name: str) -> str:

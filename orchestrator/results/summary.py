@@ -9,11 +9,12 @@ import json
 import math
 import sys
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from orchestrator.master.stepping import StepCounts
 from orchestrator.results.certificate import Certificate
 from orchestrator.results.film_regime import FilmRegime, regimes
+from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import LedgerSummary, ledger_of
 from orchestrator.results.result import Result, Timing
 from orchestrator.results.statistics import (
@@ -28,6 +29,9 @@ from orchestrator.results.statistics import (
 )
 from orchestrator.results.windows import Phase, instants, phases
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 UNITS = {
     "force": "N",
     "moment": "N m",
@@ -40,6 +44,17 @@ UNITS = {
     "contact_share": "1",
     "sommerfeld": "1",
 }
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The least damped mode of a train in equilibrium: frequency [Hz], damping, in words."""
+
+    frequency: float
+    damping_ratio: float
+    log_decrement: float
+    stable: bool
+    text: str
 
 
 @dataclass(frozen=True)
@@ -82,6 +97,8 @@ class RunSummary:
         Energy ledger, if it was kept.
     analysed : str or None
         The analysed bearing.
+    least_damped : Stability or None
+        The least damped mode of the train in its static equilibrium before the event.
     phases : tuple of Phase
         With the windows of the statistics.
     shaft : tuple of ShaftStatistics
@@ -119,6 +136,7 @@ class RunSummary:
     bearings: tuple[BearingStatistics, ...]
     films: tuple[FilmRegime, ...] = ()
     certificate: Certificate | None = None
+    least_damped: Stability | None = None
 
     def of_phase(self, phase: Phase) -> tuple[BearingStatistics, ...]:
         """Statistics of all bearings in one phase."""
@@ -209,4 +227,13 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         shaft=tuple(shaft_statistics(record, phase) for phase in found),
         bearings=tuple(bearings),
         films=regimes(record),
+        least_damped=_stability(record),
     )
+
+
+def _stability(record: xr.Dataset) -> Stability | None:
+    mode = least_damped_of(record)
+    if mode is None:
+        return None
+    hertz = mode.frequency / (2.0 * math.pi)
+    return Stability(hertz, mode.damping_ratio, mode.log_decrement, mode.stable, str(mode))

@@ -101,6 +101,15 @@ def _certificate_text(certificate: Certificate) -> str:
     return text + "largest changes " + ", ".join(parts)
 
 
+def _stability_row(summary: RunSummary) -> list[tuple[str, str | Text]]:
+    """The least damped mode, red where it grows."""
+    mode = summary.least_damped
+    if mode is None:
+        return []
+    word = "stable, least damped" if mode.stable else "UNSTABLE, grows"
+    return [("before event", Text(f"{word}: {mode.text}", style="" if mode.stable else "bold red"))]
+
+
 def _facts(summary: RunSummary) -> Table:
     timing = summary.timing
     rate = f", {summary.simulated / timing.loop:.3g} s a second" if timing.loop > 0 else ""
@@ -110,6 +119,7 @@ def _facts(summary: RunSummary) -> Table:
     outcome = summary.outcome + ("" if summary.finished else f" (exit status {summary.exit_status})")
     rows: list[tuple[str, str | Text]] = [
         ("outcome", Text(outcome, style="green" if summary.finished else "bold red")),
+        *_stability_row(summary),
         ("simulated", _steps_text(summary)),
         ("depth", summary.depth_text()),
         ("coupling", summary.coupling),

@@ -8,6 +8,17 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from rotor_fmu.linear.critical import (
+    LEAST_DECREMENT,
+    CriticalSpeed,
+    LeastDamped,
+    critical_speeds,
+    least_damped,
+    least_damped_of,
+    log_decrement,
+    thresholds,
+    undamped_critical_speeds,
+)
 from rotor_fmu.linear.free_whirl import (
     WhirlBranches,
     WhirlError,
@@ -15,8 +26,9 @@ from rotor_fmu.linear.free_whirl import (
     irs_iterates,
     modal_truncation,
 )
-from rotor_fmu.linear.harmonic import HarmonicResponse, unbalance_responses
+from rotor_fmu.linear.harmonic import HarmonicResponse, unbalance_response, unbalance_responses
 from rotor_fmu.linear.reduction_report import ReductionReport, matched, reduction_report
+from rotor_fmu.linear.resonance import refined, resonances
 from rotor_fmu.linear.tracking import ModesAt, Tracks, follow, modal_assurance
 from rotor_fmu.linear.whirl import LinearBearings, WhirlModes, campbell, half_axes, whirl_modes
 from rotor_fmu.reduction.reduce import DEFAULT_SIZE, METHODS, Method, ReducedShaft, reduce
@@ -26,8 +38,11 @@ from rotor_fmu.train.train import Train
 
 __all__ = [
     "DEFAULT_SIZE",
+    "LEAST_DECREMENT",
     "METHODS",
+    "CriticalSpeed",
     "HarmonicResponse",
+    "LeastDamped",
     "LinearBearings",
     "Method",
     "ModesAt",
@@ -39,17 +54,26 @@ __all__ = [
     "WhirlError",
     "WhirlModes",
     "campbell",
+    "critical_speeds",
     "follow",
     "free_branches",
     "half_axes",
     "irs_iterates",
+    "least_damped",
+    "least_damped_of",
+    "log_decrement",
     "matched",
     "modal_assurance",
     "modal_truncation",
     "reduced_shaft",
     "reduction_report",
+    "refined",
+    "resonances",
     "target_loads",
+    "thresholds",
+    "unbalance_response",
     "unbalance_responses",
+    "undamped_critical_speeds",
     "unreduced_shaft",
     "whirl_modes",
 ]

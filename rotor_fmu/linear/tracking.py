@@ -53,8 +53,8 @@ class Tracks:
 def modal_assurance(a: WhirlModes, b: WhirlModes) -> Array:
     """MAC of the deflections of all modes of both, (a, b), from 0 to 1 for the same shape.
 
-    Allemang and Brown 1982: |a^H b|^2 / (a^H a) (b^H b).  The shapes are complex, so that forward and backward
-    whirl of the same deflection are orthogonal.
+    Allemang and Brown 1982: |a^H b|^2 / (a^H a) (b^H b).  The shapes are complex, so that forward and
+    backward whirl of the same deflection are orthogonal.
     """
     first, second = (_deflections(modes) for modes in (a, b))
     return np.asarray(np.abs(first.conj().T @ second) ** 2)

@@ -14,7 +14,7 @@ of the bearings, start positions of the rotor.  The steps are
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +64,8 @@ class Start:
         Journals: ``q(t) = static + cosine cos(speed t) + sine sin(speed t)``.
     static_line : ndarray (nodes, 2)
         Static x, y of the shaft in m.
+    tangents : ndarray (bearings, 4, 8)
+        Stiffness and damping [K C] of the bearings in the static position; of a start that is applied.
     """
 
     loads: Array
@@ -72,6 +74,7 @@ class Start:
     cosine: Array
     sine: Array
     static_line: Array
+    tangents: Array = field(default_factory=lambda: np.zeros((0, 4, 8)))
 
 
 def find_start(system: System, train: Train, speed: float) -> Start:
@@ -187,13 +190,13 @@ def begin(system: System, start: Start, nodes: int) -> Start:
     for group in system.groups:
         group.feed()
         group.fetch()
-    loads, line = system.forces[:, :2].copy(), _line(system, nodes)
+    loads, line, tangents = system.forces[:, :2].copy(), _line(system, nodes), system.tangents
     apply_start(system, start)
     for unit in system.units:
         unit.exit_initialization()
     for group in system.groups:
         group.fetch()
-    return replace(start, loads=loads, static_line=line)
+    return replace(start, loads=loads, static_line=line, tangents=tangents)
 
 
 def _rest_under(system: System, laws: Array) -> Array:

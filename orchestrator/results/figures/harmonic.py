@@ -36,7 +36,7 @@ def harmonic_figure(shaft: xr.Dataset, places: xr.Dataset, forces: xr.Dataset, t
         14.0,
         7.6,
         "Unbalance response over the speed of rotation",
-        f"{train.name}  ·  {shaft.attrs['films']}, the same at all speeds  ·  nominal unbalance",
+        f"{train.name}  ·  {shaft.attrs['films']}  ·  nominal unbalance",
     )
     largest, bearings, wheels, force = figure.subplots(2, 2, sharex=True).ravel()
     rotation = shaft["rotation"].values

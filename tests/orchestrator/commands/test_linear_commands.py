@@ -33,6 +33,7 @@ COMMANDS = {
     "campbell": ("campbell", "small", "--count", "4"),
     "campbell-supported": ("campbell", "small", "--supported", "--count", "4"),
     "modes": ("modes", "small", "--count", "6"),
+    "stability": ("stability", "small", "--depth", "v3", "--to", "60"),
     "harmonic": ("harmonic", "small", "--to", "60"),
     "reductions": ("reductions", "small"),
 }
@@ -93,7 +94,7 @@ def test_data_carry_units_and_what_they_are_of(folder, command):
 
 def test_free_campbell_errors_are_those_of_the_frequencies(folder):
     found = data(folder, "campbell")
-    assert found["rotation"].values[[0, -1]] == pytest.approx([0.0, 50.0])
+    assert found["rotation"].values[[0, -1]] == pytest.approx([0.0, 100.0])  # twice the rated speed
     exact = found["frequency"].sel(shaft="unreduced")
     assert np.all(exact.sel(direction="forward")[1:] > exact.sel(direction="backward")[1:])
     expected = found["frequency"] / exact - 1.0
@@ -105,7 +106,7 @@ def test_free_campbell_errors_are_those_of_the_frequencies(folder):
 
 def test_unreduced_modes_are_the_same_in_both_commands(folder):
     modes, diagram = data(folder, "modes"), data(folder, "campbell-supported")
-    here = diagram.sel(shaft="unreduced").sel(rotation=50.0)
+    here = diagram.sel(shaft="unreduced").sel(rotation=50.0, method="nearest")
     for name in ("frequency", "damping_ratio", "whirl_direction"):
         assert modes[name].values == pytest.approx(here[name].values[:6], rel=1e-6, abs=1e-8)
 
@@ -129,15 +130,47 @@ def test_response_at_rated_speed_is_the_orbit_that_a_run_starts_from(folder):
             system.close()
     x, y = (start.cosine[:, i] - 1j * start.sine[:, i] for i in range(2))
     expected = (np.abs(x + 1j * y) + np.abs(x - 1j * y)) / 2.0
-    found = data(folder, "harmonic", "amplitudes")["amplitude"].sel(rotation=50.0, shaft="unreduced")
+    found = data(folder, "harmonic", "amplitudes")["amplitude"].sel(shaft="unreduced")
+    found = found.sel(rotation=50.0, method="nearest")
     assert found.sel(place=[seat.name for seat in train.bearings]).values == pytest.approx(expected, rel=1e-6)
 
 
 def test_bearings_of_the_operating_point_are_written(folder):
     found = data(folder, "modes", "bearings")
-    assert found["stiffness"].dims == ("bearing", "wrench", "displacement")
+    assert found["stiffness"].dims == ("rotation", "bearing", "wrench", "displacement")
     assert np.all(found["stiffness"].sel(wrench="Fy", displacement="y") > 0.0)
     assert np.all(found["damping"].sel(wrench="Fy", displacement="y") > 0.0)
+
+
+def test_films_are_those_of_each_speed(folder):
+    """Stiffness over speed is not that of rated speed: the film stiffens as the journal sinks."""
+    found = data(folder, "campbell-supported", "bearings")["stiffness"].sel(wrench="Fy", displacement="y")
+    over = found.sel(rotation=[20.0, 50.0, 100.0], method="nearest").isel(bearing=0).values
+    assert over[0] > 1.5 * over[1] > 1.5 * 1.2 * over[2] > 0.0
+
+
+def test_stability_is_that_of_the_modes_and_names_margins(folder):
+    found = data(folder, "stability").sel(rotation=50.0, method="nearest")
+    decrement = 2.0 * np.pi * found["damping_ratio"] / np.sqrt(1.0 - found["damping_ratio"] ** 2)
+    assert found["log_decrement"].values == pytest.approx(decrement.values)
+    said = re.sub(r"\s+", " ", (folder / "stability.said").read_text())
+    assert said.startswith("Stable at 50 Hz of rotation: least damped is the mode of")
+    assert "No threshold between" in said and "API 684 SP6.8.2.10" in said and " kept" in said
+    peaks = data(folder, "stability", "critical-speeds")
+    chart = data(folder, "stability", "critical-speed-map")
+    assert peaks.sizes["critical"] >= 1 and np.all(np.diff(chart["critical_speed"].values[:, 0]) > 0.0)
+
+
+def test_probes_see_the_orbit_and_its_phase(folder):
+    """A probe between x and y sees their phasors added; the peak is among the speeds."""
+    probes = data(folder, "harmonic", "probes")
+    phasor = probes["amplitude"] * np.exp(1j * probes["phase"])
+    x, y, at = (phasor.sel(probe=name) for name in ("x", "y", "45 deg"))
+    assert np.allclose(at, (x + y) / np.sqrt(2.0), rtol=1e-9)
+    largest = data(folder, "harmonic")["amplitude"].sel(shaft="unreduced").values
+    k = int(np.argmax(largest))
+    assert largest[k] > largest[k - 1] and largest[k] > largest[k + 1]
+    assert largest[k - 1] / largest[k] > 0.99  # no flank is jumped over
 
 
 def test_reductions_report_where_each_is_exact(folder):
@@ -161,7 +194,7 @@ def test_figure_axes_are_labelled_and_legends_lie_beside_the_data(folder):
         assert not inside.overlaps(axes.get_legend().get_window_extent())
 
 
-@pytest.mark.parametrize("command", ["campbell", "modes", "harmonic", "reductions"])
+@pytest.mark.parametrize("command", ["campbell", "modes", "stability", "harmonic", "reductions"])
 def test_help_teaches(command):
     text = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "120", "TERM": "dumb"}).output
     assert f"bladeloss {command}" in text and "Exit status" in text and "--depth" in text

@@ -1,0 +1,76 @@
+"""The unbalance response of a train on the films of each speed, at speeds that miss no resonance."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.linear.campbell import OVERDAMPED, modes_on
+from orchestrator.linear.case import HERTZ, LinearCase
+from orchestrator.linear.operating_point import OverSpeed
+from rotor_fmu.linear.analysis import (
+    HarmonicResponse,
+    ReducedShaft,
+    ShaftModel,
+    Tracks,
+    follow,
+    half_axes,
+    refined,
+    resonances,
+    unbalance_response,
+)
+
+Array = NDArray[np.float64]
+
+INTERVALS = 120
+"""Of the axis of speed, before points are added at resonances."""
+
+TRACKED_INTERVALS = 30
+"""Of the axis over which modes are followed to find the resonances."""
+
+MODES = 24
+"""Followed."""
+
+
+class Response:
+    """Unbalance response of a shaft at any speed; each is computed once."""
+
+    def __init__(self, case: LinearCase, shaft: ShaftModel | ReducedShaft, films: OverSpeed) -> None:
+        unbalance = case.unbalance
+        self._at = cache(lambda speed: unbalance_response(shaft, speed, films.at(speed).bearings, unbalance))
+
+    def at(self, speed: float) -> HarmonicResponse:
+        """At a speed [rad/s]."""
+        return self._at(float(speed))
+
+    def amplitudes(self, speed: float) -> Array:
+        """Largest half axis of every node's orbit [m], (nodes,)."""
+        shape = self.at(speed).shape
+        return half_axes(shape[0::4], shape[1::4])[0]
+
+    def largest(self, speed: float) -> float:
+        """Largest amplitude of the shaft [m]."""
+        return float(self.amplitudes(speed).max())
+
+
+def followed(case: LinearCase, films: OverSpeed, highest: float) -> tuple[list[float], Tracks, str]:
+    """Speeds up to a frequency of rotation [Hz], modes followed over them, and why speeds are left out."""
+    grid = np.linspace(0.0, highest, TRACKED_INTERVALS + 1)
+    rated = case.train.speed if case.train.speed <= HERTZ * highest else HERTZ * highest
+    speeds, missing = films.reachable(list(np.union1d(HERTZ * grid, [rated])))
+    modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
+    reference = int(np.argmin(np.abs(np.array(speeds) - rated)))
+    return speeds, follow(modes_at, speeds, reference, MODES), missing
+
+
+def resonant_speeds(
+    case: LinearCase, films: OverSpeed, response: Response, speeds: list[float], tracks: Tracks
+) -> Array:
+    """Speeds [rad/s] over the range over which modes were followed, with all resonances among them."""
+    modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
+    grid = np.linspace(0.0, speeds[-1], INTERVALS + 1)[1:]
+    rated = [case.train.speed] if case.train.speed <= speeds[-1] else []
+    grid = np.union1d(grid[grid >= speeds[0]], rated)
+    return refined(response.largest, grid, resonances(tracks, modes_at, speeds))
