@@ -59,7 +59,7 @@ def run(
     return 0
 
 
-def _bending_modes(case: LinearCase, count: int, highest: float | None) -> int:
+def _bending_modes(case: LinearCase, count: int, highest: float) -> int:
     """How many bending modes the unreduced shaft has in each direction, up to a number."""
     while count > 0:
         try:
