@@ -7,6 +7,7 @@ stiffness and damping, solved for the eigenvalues of least modulus.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -146,13 +147,18 @@ def system_matrices(
     shaft, speed, bearings
         As for `whirl_modes`.
     """
-    mass, damping, gyroscopic, stiffness = (sp.csc_array(A) for A in (shaft.M, shaft.D, shaft.G, shaft.K))
+    mass, damping, gyroscopic, stiffness, B = _parts(shaft)
     damping = damping + speed * gyroscopic
     if bearings is not None:
-        B = journal_map(shaft)
         stiffness = stiffness + B.T @ sp.block_diag(list(bearings.stiffness)) @ B
         damping = damping + B.T @ sp.block_diag(list(bearings.damping)) @ B
     return mass, sp.csc_array(damping), sp.csc_array(stiffness)
+
+
+@lru_cache(maxsize=8)
+def _parts(shaft: ShaftModel | ReducedShaft) -> tuple[sp.csc_array, ...]:
+    """Mass, damping, gyroscopic matrix, stiffness and `journal_map`, in one sparse form."""
+    return *(sp.csc_array(A) for A in (shaft.M, shaft.D, shaft.G, shaft.K)), sp.csc_array(journal_map(shaft))
 
 
 def journal_map(shaft: ShaftModel | ReducedShaft) -> sp.csr_array:
