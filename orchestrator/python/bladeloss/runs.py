@@ -91,9 +91,15 @@ def run(
     shown = console.is_terminal or console.is_jupyter if progress is None else progress
     quiet = Console(quiet=True)
     request = RunRequest(
-        str(source), nested(changes), None if out is None else Path(out),
-        fmu_folder() if fmus is None else Path(fmus), formats=("png",) if figures else (), threads=threads, trust=trust, report=report,
-    )  # fmt: skip
+        str(source),
+        nested(changes),
+        None if out is None else Path(out),
+        fmu_folder() if fmus is None else Path(fmus),
+        formats=("png",) if figures else (),
+        threads=threads,
+        trust=trust,
+        report=report,
+    )
     with prepare(request, quiet, writes=out is not None) as case:
         if request.out is None:
             result = completed(case, _executed(case, request, console if shown else quiet))
