@@ -138,8 +138,9 @@ def _laid_over(pieces: Sequence[_Piece], problems: list[str]) -> Iterator[Should
     """Cut the pieces wherever one of them begins or ends; yield what lies between."""
     chain = sorted({place for p in pieces if p.row.z is None for place in (p.front, p.rear)})
     cuts = list(chain)
-    for piece in pieces:
-        cuts += (place for place in (piece.front, piece.rear) if _snapped(place, cuts) is place)
+    for place in (place for p in pieces if p.row.z is not None for place in (p.front, p.rear)):
+        if all(abs(cut - place) >= LEAST_LENGTH for cut in cuts):
+            cuts.append(place)
     cuts.sort()
     snapped = [
         _Piece(p.number, p.row, _snapped(p.front, cuts), _snapped(p.rear, cuts), p.rings) for p in pieces
@@ -159,9 +160,8 @@ def _laid_over(pieces: Sequence[_Piece], problems: list[str]) -> Iterator[Should
 
 
 def _snapped(place: float, cuts: Sequence[float]) -> float:
-    """The cut that a place lies at, or the place itself."""
-    near = min(cuts, key=lambda cut: abs(cut - place), default=math.inf)
-    return near if abs(near - place) < LEAST_LENGTH else place
+    """The cut that a place lies at."""
+    return min(cuts, key=lambda cut: abs(cut - place))
 
 
 def _overlaps(rings: Sequence[tuple[_Piece, Ring]], where: str) -> Iterator[str]:
