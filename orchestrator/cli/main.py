@@ -92,15 +92,22 @@ def build(
 
 
 @app.command()
-def info() -> None:
-    """List the bundled scenarios and trains, with the names of bearings and wheels."""
+def info(
+    train: Annotated[
+        str | None, typer.Argument(help="A bundled train, or a folder with train.toml and shaft.csv.")
+    ] = None,
+) -> None:
+    """List the bundled scenarios and trains; or show a train as it is read: shaft, loads, what sits on it."""
 
     def work() -> int:
         from rich.console import Console
 
-        from orchestrator.commands.info import show
+        from orchestrator.commands.info import show, show_train
 
-        show(Console())
+        if train is None:
+            show(Console())
+        else:
+            show_train(train, Console())
         return 0
 
     guarded(work)

@@ -1,12 +1,14 @@
-"""``bladeloss info``: what comes with the package."""
+"""``bladeloss info``: what comes with the package, or one train as it is read."""
 
 from __future__ import annotations
 
 from rich.console import Console
 from rich.table import Table
 
-from orchestrator.scenario.file import bundled_scenarios, load_scenario
+from orchestrator.scenario.file import bundled_scenarios, load_scenario, read_train
+from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.train.file import bundled_trains, load_train
+from rotor_fmu.train.train import Coupling, Shoulder, Train
 
 
 def show(console: Console) -> None:
@@ -31,3 +33,84 @@ def show(console: Console) -> None:
         facts.add_row("bearings", ", ".join(seat.name for seat in train.bearings))
         facts.add_row("wheels", ", ".join(wheel.name for wheel in train.wheels))
         console.print(facts, "", sep="\n", highlight=False)
+
+
+def show_train(source: str, console: Console) -> None:
+    """Print a train: lengths in mm, loads in N.
+
+    Raises
+    ------
+    OrchestratorError
+        When it cannot be read.
+    """
+    train = read_train(source)
+    gravity = ", ".join(f"{g:g}" for g in train.gravity)
+    console.print(
+        f"[bold]{train.name}[/bold]  {train.length:g} m, {train.mass:.5g} kg, "
+        f"{train.speed / 6.283185307179586:g} Hz, gravity ({gravity}) m/s2",
+        highlight=False,
+    )
+    console.print(_seats(train), _bodies(train), _shaft(train), sep="\n")
+
+
+def _seats(train: Train) -> Table:
+    table = Table(title="Bearings, and their static loads against gravity", title_justify="left")
+    for name in ("bearing", "z, mm", "diameter, mm", "height, mm", "load, N"):
+        table.add_column(name, justify="left" if name == "bearing" else "right")
+    for seat, load in zip(train.bearings, target_loads(train), strict=True):
+        height = "" if seat.height is None else f"{1e3 * seat.height:g}"
+        diameter = f"{1e3 * seat.diameter:g}" + (", sleeve" if seat.sleeve else "")
+        held = ", held down" if load < 0.0 else ""
+        table.add_row(
+            seat.name, _mm(train.z[seat.node]), diameter if seat.has_film else "", height, f"{load:.4g}{held}"
+        )
+    return table
+
+
+def _bodies(train: Train) -> Table:
+    table = Table(title="What sits on the shaft", title_justify="left")
+    for name in ("name", "z, mm", "what it is"):
+        table.add_column(name, justify="right" if name.startswith("z") else "left")
+    rows = [
+        (body.node, body.name, f"{kind}, {body.mass:g} kg, polar {body.polar_inertia:g}, transverse "
+         f"{body.transverse_inertia:g} kg m2")
+        for kind, bodies in (("wheel", train.wheels), ("mass", train.masses))
+        for body in bodies
+    ]  # fmt: skip
+    rows += [(coupling.node, coupling.name, _coupling(train, coupling)) for coupling in train.couplings]
+    for node, name, text in sorted(rows):
+        table.add_row(name, _mm(train.z[node]), text)
+    return table
+
+
+def _coupling(train: Train, coupling: Coupling) -> str:
+    joint = train.joint_of(coupling)
+    if joint is None:
+        return "rigid coupling"
+    return (
+        f"elastic coupling, {joint.translational_stiffness:g} N/m, {joint.angular_stiffness:g} N m/rad, "
+        f"{joint.translational_damping:g} N s/m, {joint.angular_damping:g} N m s/rad"
+    )
+
+
+def _shaft(train: Train) -> Table:
+    table = Table(title="Shoulders, from front to rear", title_justify="left")
+    for name in ("z, mm", "length, mm", "rings: outer x inner diameter in mm, material"):
+        table.add_column(name, justify="left" if name.startswith("rings") else "right")
+    for z, shoulder in zip(train.z, train.shoulders, strict=False):
+        if shoulder.joint is None:
+            table.add_row(_mm(z), _mm(shoulder.length), _rings(shoulder))
+    return table
+
+
+def _rings(shoulder: Shoulder) -> str:
+    words = []
+    for ring in shoulder.rings:
+        ends = [f"{_mm(ring.outer(share))} x {_mm(ring.inner(share))}" for share in (0.0, 1.0)]
+        only = "" if ring.counts == "both" else f", {ring.counts} only"
+        words.append(f"{' to '.join(dict.fromkeys(ends))} {ring.material.name}{only}")
+    return "; ".join(words)
+
+
+def _mm(metres: float) -> str:
+    return f"{1e3 * metres:g}"

@@ -32,7 +32,7 @@ _WHEEL = {
 }
 _SHOULDER = {
     "shoulder_length": ("length", "m", "length of the shoulder"),
-    "shoulder_outer_diameter": ("outer_diameter", "m", "outer diameter of the shoulder"),
+    "shoulder_outer_diameter": ("widest", "m", "outer diameter of the shoulder, where it is largest"),
     "shoulder_inner_diameter": ("inner_diameter", "m", "inner diameter of the shoulder"),
 }
 

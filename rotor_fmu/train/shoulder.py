@@ -200,6 +200,11 @@ class Shoulder:
             return self.length / 2.0
         return math.fsum(ring.moments_of_mass(self.length)[1] for ring in self.rings) / mass
 
+    @property
+    def widest(self) -> float:
+        """Largest diameter [m]."""
+        return max(self.surface(0.0), self.surface(1.0))
+
     def surface(self, share: float) -> float:
         """Diameter of the outermost ring at a share of the length [m]."""
         return max((r.outer(share) for r in self.rings), default=self.outer_diameter)

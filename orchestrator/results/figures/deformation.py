@@ -104,7 +104,7 @@ def scales_of(records: Sequence[xr.Dataset], instants: Sequence[int], train: Tra
     drawn = largest * deflection
     radius = 0.0
     if train is not None:
-        diameters = [s.outer_diameter for s in train.shoulders] + [w.mean_diameter for w in train.wheels]
+        diameters = [s.widest for s in train.shoulders] + [w.mean_diameter for w in train.wheels]
         radius = max(diameters) / 2
     reach = drawn + max(1.1 * radius, SHOWN_FORCE * length)
     return Scales(

@@ -114,14 +114,14 @@ def _band(axes: Axes, z: Array, major: Array, direction: Array) -> None:
 def _outline(axes: Axes, train: Train) -> None:
     """Shaft and wheels, lightly, radii to a scale of their own."""
     largest = max(
-        max(shoulder.outer_diameter for shoulder in train.shoulders),
+        max(shoulder.widest for shoulder in train.shoulders),
         max((wheel.mean_diameter for wheel in train.wheels), default=0.0),
     )
     scale = OUTLINE / largest
     shaft = [
         [(left, -r), (right, -r), (right, r), (left, r)]
         for left, right, r in zip(
-            train.z, train.z[1:], (s.outer_diameter * scale for s in train.shoulders), strict=False
+            train.z, train.z[1:], (s.widest * scale for s in train.shoulders), strict=False
         )
     ]
     half = 0.003 * train.length

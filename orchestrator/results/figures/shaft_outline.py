@@ -44,7 +44,7 @@ def draw_shaft(
         Gives the diameters.
     """
     if train is not None:
-        radius = np.array([shoulder.outer_diameter / 2 for shoulder in train.shoulders]) * shown
+        radius = np.array([shoulder.widest / 2 for shoulder in train.shoulders]) * shown
     else:
         radius = np.full(z.size - 1, BAND * z[-1] / 2 * shown)
     corners = np.stack(
