@@ -83,7 +83,7 @@ def test_a_table_as_spreadsheets_write_it(folder, kind, encoding):
          "row 3: outer_diameter = '0,24'; allowed is a number with a decimal point"),
         ("0.2,0.24,0.0,steel", "0.2,24 kg,0.0,steel",
          "outer_diameter = '24 kg'; allowed is a number in m or in a unit of the same kind, as mm"),
-        ("0.2,0.24,0.0,steel", "0.2,nan,0.0,steel", "row 3: outer_diameter = nan; allowed is a finite number"),
+        ("0.2,0.24,0.0,steel", "0.2,nan,0.0,steel", "outer_diameter = nan; allowed is a finite number"),
     ],
 )  # fmt: skip
 def test_a_table_that_cannot_be_read(folder, old, new, words):
