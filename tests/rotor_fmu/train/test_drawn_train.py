@@ -159,9 +159,9 @@ sleeve = true
          "coupling 'c': translational_stiffness without angular_stiffness; allowed are both"),
         ('[[coupling]]\nname = "c"\nz = 3.65\nangular_damping = 1.0\n',
          "coupling 'c': damping of a rigid coupling; allowed is it beside both stiffnesses"),
-        (BEARING.format(z=5.25) + "height = 1e-4\n",
+        (BEARING.format(z=5.8) + "height = 1e-4\n",
          "bearing 'front': height: missing; it must be given for all bearings or for none"),
-        (BEARING.format(z=5.25) + "height = 1e-4\nload = 1e4\n",
+        (BEARING.format(z=5.8) + "height = 1e-4\nload = 1e4\n",
          "bearing 'third': height = 0.0001 beside a load; allowed is one of them"),
     ],
 )  # fmt: skip
