@@ -37,7 +37,7 @@ def run(request: LinearRequest, console: Console, *, count: int, hertz: float | 
     else:
         with case.over_speed() as films:
             point = films.at(speed)
-    data = mode_data(case, point, speed, count)
+    data = mode_data(case, count, speed, point)
     worst = least_damped(case.shaft, speed, point.bearings)
     bearings = bearing_data({speed: point}, case.train, case.films_at(speed))
     figure = mode_shapes_figure(data, case.train)
@@ -45,9 +45,13 @@ def run(request: LinearRequest, console: Console, *, count: int, hertz: float | 
     return 0
 
 
-def mode_data(case: LinearCase, point: OperatingPoint, speed: float, count: int) -> xr.Dataset:
-    """Modes of the unreduced shaft on its films at a speed [rad/s] (mode, node)."""
+def mode_data(
+    case: LinearCase, count: int, speed: float | None = None, point: OperatingPoint | None = None
+) -> xr.Dataset:
+    """Modes of the unreduced shaft on its films at a speed [rad/s], by default the rated one (mode, node)."""
     train = case.train
+    speed = train.speed if speed is None else speed
+    point = case.operating_point if point is None else point
     modes = whirl_modes(case.shaft, speed, count, bearings=point.bearings)
     shapes = modes.shapes.reshape(train.nodes, 4, -1)
     shapes = shapes / half_axes(shapes[:, 0], shapes[:, 1])[0].max(axis=0)

@@ -73,7 +73,7 @@ def test_a_bearing_of_somebody_else_needs_trust(spring, short, small_fmus, tmp_p
     "archive",
     "an FMU of somebody else in an investigation of the linearised train",
     "exit 2; file, `native code`, `--trust`; nothing of it runs",
-    guard="orchestrator.linear.case:LinearCase.operating_point",
+    guard="orchestrator.linear.case:LinearCase._ensure",
 )
 def test_linear_commands_ask_as_well(spring, short, small_fmus, tmp_path, nothing_runs):
     short.write_text(short.read_text() + f'[depth_at]\nrear = "{spring}"\n')
