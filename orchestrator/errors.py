@@ -68,7 +68,7 @@ class EquilibriumError(OrchestratorError):
 
 
 class Terminated(KeyboardInterrupt):
-    """The process was told to end by SIGTERM; it ends as after Ctrl-C, with a status of its own."""
+    """The process was told to end by SIGTERM or SIGHUP; it ends as after Ctrl-C, with a status of its own."""
 
 
 def outcome_of(stop: KeyboardInterrupt) -> Outcome:

@@ -95,7 +95,7 @@ class Outcome(Enum):
     TERMINATED = (
         "terminated",
         143,
-        "The process was told to end (SIGTERM); the record holds what was simulated, and a run with "
+        "The process was told to end (SIGTERM, SIGHUP); the record holds what was simulated, and a run with "
         "checkpoints can be resumed.",
     )
 

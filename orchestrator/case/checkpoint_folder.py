@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Literal, Self
 
@@ -11,8 +11,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from orchestrator.case.case import Case
 from orchestrator.case.request import RunRequest
-from orchestrator.observers.checkpoint import Checkpoint, CheckpointError, Checkpoints
+from orchestrator.observers.checkpoint import FILE, Checkpoint, CheckpointError, Checkpoints, read
 from orchestrator.observers.checkpoint_meta import problem_of
+from orchestrator.results.folder import ResultFolderError, check_writable
 
 SUFFIX = "-checkpoint"
 
@@ -38,7 +39,7 @@ def checkpoints(
         "threads": request.threads,
         "budget": request.budget,
     }
-    return Checkpoints(checkpoint_folder(folder), request.checkpoint, about, warn)
+    return Checkpoints(checkpoint_folder(folder.absolute()), request.checkpoint, about, warn)
 
 
 class _About(BaseModel):
@@ -95,5 +96,20 @@ def request_of(saved: Checkpoint, folder: Path, fmus: Path, *, trust: bool) -> R
 
 
 def discard(folder: Path) -> None:
-    """Remove the checkpoint of a run that is finished."""
-    shutil.rmtree(checkpoint_folder(folder), ignore_errors=True)
+    """Remove the checkpoint of a run that is finished, and its folder unless something else is in it."""
+    place = checkpoint_folder(folder)
+    with suppress(OSError):
+        (place / FILE).unlink(missing_ok=True)
+        place.rmdir()
+
+
+def check_checkpoint(folder: Path) -> None:
+    """Raise ResultFolderError when a run with results in `folder` can keep no checkpoint without harm."""
+    place = checkpoint_folder(folder)
+    check_writable(place)
+    path = place / FILE
+    if path.exists() or path.is_symlink():
+        try:
+            read(place)
+        except CheckpointError as error:
+            raise ResultFolderError(f"{error}; it is left as it is, --out takes another folder") from None

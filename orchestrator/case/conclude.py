@@ -11,14 +11,14 @@ from rich.text import Text
 from orchestrator.case.case import Case
 from orchestrator.case.certify import certify
 from orchestrator.case.request import RunRequest
-from orchestrator.errors import NotWrittenError
+from orchestrator.errors import NotWrittenError, outcome_of
 from orchestrator.outcome import Outcome
 from orchestrator.report.source import results_of
 from orchestrator.report.write import FILE, write_report
-from orchestrator.results.files import write_all
+from orchestrator.results.files import add, write_all
 from orchestrator.results.folder import FIGURES, partial_folder
 from orchestrator.results.result import Result
-from orchestrator.results.summary import RunSummary, summarise
+from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import SummaryTable
 from orchestrator.results.verdicts.limits import ATTRIBUTE, load_limits, own_file, to_text
 
@@ -52,18 +52,31 @@ def conclude(
         certificate = certify(summary, summarise(half, analysed=request.bearing))
         summary = replace(summary, certificate=certificate)
         result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
-    console.print(SummaryTable(summary))
-    asked, used = case.scenario.reduction, result.record.attrs.get("reduction_used")
-    if used not in (None, asked):
-        console.print(f"Reduction: {used}", highlight=False, soft_wrap=True)
     outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
+    place = folder if outcome.ok else partial_folder(folder)
+    written = False
     if outcome.ok or summary.phases:
         try:
-            _write(case, request, folder if outcome.ok else partial_folder(folder), result, summary, console)
+            write_all(result, summary, case.scenario, case.train, request.formats, place)
+            if request.report and summary.phases:
+                source = results_of([result.record])
+                add(place, "report", lambda fresh: write_report(source, fresh / FILE, request.bearing))
+            written = True
         except NotWrittenError as error:
             outcome, message = Outcome.NOT_WRITTEN, error.text
             if request.checkpoint is not None:
                 message += " The checkpoint is kept: bladeloss resume goes on from there."
+        except KeyboardInterrupt as error:
+            outcome = outcome_of(error)
+            message = f"the run had ended, and its data are complete in {place}; its figures are not drawn"
+    console.print(SummaryTable(summary))  # whatever goes wrong from here on, the results are there
+    if written:
+        kind = "Results" if result.outcome.ok else "Partial results"
+        console.print(f"\n{kind} in {place}", highlight=False, soft_wrap=True)
+        if request.formats and summary.phases:
+            console.print(f"Figures in {place / FIGURES}", highlight=False, soft_wrap=True)
+        if request.report and summary.phases:
+            console.print(f"Report in {place / FILE}", highlight=False, soft_wrap=True)
     if outcome.ok and half is not None and not half.outcome.ok:
         outcome, message = half.outcome, f"the certificate's run at half the step: {half.message}"
     if not outcome.ok:
@@ -76,17 +89,3 @@ def completed(case: Case, result: Result) -> Result:
     """The result with the limits of its machine in the record."""
     limits = to_text(load_limits(own_file(case.scenario)))
     return replace(result, record=result.record.assign_attrs({ATTRIBUTE: limits}))
-
-
-def _write(
-    case: Case, request: RunRequest, folder: Path, result: Result, summary: RunSummary, console: Console
-) -> None:
-    """Write record, summary, scenario and figures, and say where they are."""
-    write_all(result, summary, case.scenario, case.train, request.formats, folder)
-    kind = "Results" if result.outcome.ok else "Partial results"
-    console.print(f"\n{kind} in {folder}", highlight=False, soft_wrap=True)
-    if request.formats and summary.phases:
-        console.print(f"Figures in {folder / FIGURES}", highlight=False, soft_wrap=True)
-    if request.report and summary.phases:
-        path = write_report(results_of([result.record]), folder / FILE, request.bearing)
-        console.print(f"Report in {path}", highlight=False, soft_wrap=True)

@@ -10,14 +10,14 @@ from pathlib import Path
 from rich.console import Console
 
 from orchestrator.case.case import Case, folder_case, ssp_case
-from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.checkpoint_folder import check_checkpoint
 from orchestrator.case.request import RunRequest
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.fmi.trust import require_trust
 from orchestrator.fmi.voucher import vouch, vouched
 from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
-from orchestrator.results.folder import check_folder, check_room, check_writable
+from orchestrator.results.folder import check_folder, check_room, named, partial_folder
 from orchestrator.scenario.file import load_with_train, parse_with_train, scenario_toml
 from orchestrator.scenario.parameters import needed_depths
 from orchestrator.scenario.problems import record_size
@@ -56,10 +56,11 @@ def prepare(
             )
         folder = result_folder_of(request, case.scenario)
         if writes:
-            check_folder(folder)
+            for place in (folder, partial_folder(folder)):
+                check_folder(place)
             check_room(folder, record_size(case.scenario, case.train))
         if request.checkpoint is not None:
-            check_writable(checkpoint_folder(folder))
+            check_checkpoint(folder)
         known = vouched(saved.about.get("trusted", {})) if saved is not None else ()
         foreign = case.units.foreign(case.scenario)
         trusted = require_trust(foreign, trust=request.trust, known=known)
@@ -72,7 +73,7 @@ def prepare(
 def result_folder_of(request: RunRequest, scenario: Scenario) -> Path:
     """Return the folder asked for, or ``results/<scenario>-<depth>``, ``-mixed`` where bearings differ."""
     if request.out is not None:
-        return request.out
+        return named(request.out)
     name = Path(request.source).stem
     if not request.is_ssp:
         depths = {scenario.depth, *scenario.depth_at.values()}

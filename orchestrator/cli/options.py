@@ -11,6 +11,7 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 import typer
 
 from bearing_fmu import depths
+from orchestrator.cli.steadfast import steadfast_output
 from orchestrator.cli.wrong_use import one_of
 
 Trust = Annotated[
@@ -112,7 +113,7 @@ def guarded(work: Callable[[], int]) -> None:
 
     text = ""
     try:
-        with handled(raise_at_once):
+        with steadfast_output(), handled(raise_at_once):
             status = work()
     except OrchestratorError as error:
         text, status = error.text, error.exit_status
@@ -121,6 +122,9 @@ def guarded(work: Callable[[], int]) -> None:
     except KeyboardInterrupt as error:
         outcome = outcome_of(error)
         text, status = f"{outcome.value}; nothing was written", outcome.status
+    except MemoryError:
+        text, status = "there is not enough memory; a longer record.interval or fewer --jobs help", 1
     if text:
-        typer.secho(f"error: {text}", err=True, fg="red")
+        with steadfast_output():
+            typer.secho(f"error: {text}", err=True, fg="red")
     raise typer.Exit(status)

@@ -21,6 +21,7 @@ from orchestrator.results.folder import (
     PARTIAL,
     check_folder,
     check_room,
+    named,
     partial_folder,
     temporary_prefix,
 )
@@ -106,8 +107,9 @@ def run(
     refined = refine(scenario) if request.check else None
     train, asked = train_of(scenario), request.depths or registry.names()
     depths = [depth for depth in registry.names() if depth in asked]
-    folder = request.out or Path("results") / f"{Path(request.source).stem}-compare"
-    check_folder(folder, SIGN)
+    folder = named(request.out) if request.out else Path("results") / f"{Path(request.source).stem}-compare"
+    for place in (folder, partial_folder(folder)):
+        check_folder(place, SIGN, _OURS)
     check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(depths))
     ensure_fmus(request.fmus, train, depths, console)
     means = Means(request.fmus, request.jobs, request.budget, command)
@@ -122,13 +124,12 @@ def run(
             console.print(f"Check with {settings_of(refined).text()}", highlight=False)
             fine, _ = run_depths(refined, train, depths, runs / CHECK, means, console)
         report = (PaperReport if speaks_of(scenario, depths) else Report)(found, fine)
-        console.print(report)
         failed = [item for one in (found, fine) if one for item in one.ended.items() if not item[1].ok]
         status = failed[0][1].status if failed else 0
         target = partial_folder(folder) if failed else folder
 
-        def draw() -> None:
-            add_figures(records, target, train, found.seat.name, request.formats)
+        def draw(fresh: Path) -> None:
+            add_figures(records, fresh, train, found.seat.name, request.formats)
 
         def write(fresh: Path) -> None:
             for name, text in (
@@ -143,16 +144,18 @@ def run(
             for path in runs.glob("[!.]*"):
                 path.rename(fresh / path.name)
 
+        said = f"\n{'Partial results' if failed else 'Results'} in {target}"
         if records:
             try:
                 with room_for(records, target):
-                    data_then_figures(target, write, draw if request.formats else None, _OURS)
+                    data_then_figures(target, write, draw if request.formats else None)
             except NotWrittenError as error:
                 status = Outcome.NOT_WRITTEN.status
                 errors.print(f"[red]error:[/red] {error}", highlight=False, soft_wrap=True)
-            else:
-                kind = "Partial results" if failed else "Results"
-                console.print(f"\n{kind} in {target}", highlight=False, soft_wrap=True)
+                said = ""
+        console.print(report)
+        if records and said:
+            console.print(said, highlight=False, soft_wrap=True)
     for name, end in failed:
         errors.print(f"[red]error:[/red] {name} not finished: {end.text()}", highlight=False, soft_wrap=True)
     return status

@@ -10,6 +10,7 @@ from orchestrator.case.case import Case
 from orchestrator.case.certify import at_half_step
 from orchestrator.case.checkpoint_folder import checkpoints, discard
 from orchestrator.case.conclude import conclude
+from orchestrator.case.own_process import undisturbed
 from orchestrator.case.prepare import prepare, result_folder_of
 from orchestrator.case.progress import show_progress
 from orchestrator.case.request import RunRequest
@@ -84,5 +85,9 @@ def run_case(
 
 def _executed(case: Case, console: Console, execution: Execution) -> Result:
     """Execute a case with its progress on the console; signals wait for the end of a step."""
-    with show_progress(case.scenario.end, console) as show, interrupt_between_steps(show) as progress:
+    with (
+        undisturbed(),
+        show_progress(case.scenario.end, console) as show,
+        interrupt_between_steps(show) as progress,
+    ):
         return execute(case, progress, execution)

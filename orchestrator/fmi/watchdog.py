@@ -7,13 +7,13 @@ second it looks in which call every unit is (`Unit.call`), and counts how long t
 from __future__ import annotations
 
 import faulthandler
-import os
 import sys
 import threading
 import time
 import traceback
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from os import _exit
 from typing import Generic, NoReturn, TypeVar
 
 from orchestrator.fmi.file import Call, Instance
@@ -136,4 +136,4 @@ def leave(conclude: Callable[[], int], *after: Callable[[], object]) -> NoReturn
         with suppress(Exception):
             sys.stdout.flush()
             sys.stderr.flush()
-        os._exit(status)
+        _exit(status)

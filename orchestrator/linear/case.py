@@ -28,8 +28,9 @@ from orchestrator.linear.operating_point import (
     over_speed,
 )
 from orchestrator.results.files import room_for
-from orchestrator.results.folder import check_folder, result_folder
+from orchestrator.results.folder import check_folder, named
 from orchestrator.results.record_files import netcdf
+from orchestrator.results.replacing import result_folder
 from orchestrator.scenario.file import (
     bundled_scenarios,
     load_with_train,
@@ -95,7 +96,7 @@ class LinearRequest:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return self.out or Path("results") / f"{Path(self.source).stem}-{self.command}"
+        return named(self.out) if self.out else Path("results") / f"{Path(self.source).stem}-{self.command}"
 
 
 @dataclass(frozen=True)
@@ -252,7 +253,6 @@ def write_results(
     request = case.request
     shown = [tables] if isinstance(tables, Table) else list(tables)
     drawn = dict(figures) if isinstance(figures, Mapping) else {request.command: figures}
-    say(case.console, first, shown)
     written: list[str] = []
     with room_for(data, request.folder), result_folder(request.folder) as fresh:
         for index, dataset in enumerate(data):
@@ -272,6 +272,7 @@ def write_results(
                 FigureCanvasAgg(figure)
                 figure.savefig(fresh / f"{name}.{kind}")
                 written.append(f"{name}.{kind}")
+    say(case.console, first, shown)
     for name in written:
         case.console.print(str(request.folder / name), highlight=False, soft_wrap=True)
 

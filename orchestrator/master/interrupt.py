@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -19,6 +21,27 @@ SIGNALS: dict[int, type[KeyboardInterrupt]] = {
 }
 """The signals that end a run, and what they raise."""
 
+if hasattr(signal, "SIGHUP"):  # the terminal is gone
+    SIGNALS[signal.SIGHUP] = Terminated
+
+TOGETHER = 0.05
+"""Time in s within which signals count as one: terminal, shell and batch system may all send it."""
+
+
+class _Last:
+    """When the last signal came that counts."""
+
+    time = -math.inf
+
+
+def counts() -> bool:
+    """Whether a signal that has just come is another one than the last."""
+    now = time.monotonic()
+    if now - _Last.time < TOGETHER:
+        return False
+    _Last.time = now
+    return True
+
 
 @contextmanager
 def handled(handler: Callable[[int, FrameType | None], None]) -> Iterator[None]:
@@ -26,7 +49,7 @@ def handled(handler: Callable[[int, FrameType | None], None]) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.signal(number, handler) for number in SIGNALS}
+    before = {number: signal.signal(number, handler) for number in SIGNALS if not _ignored(number)}
     try:
         yield
     finally:
@@ -36,7 +59,31 @@ def handled(handler: Callable[[int, FrameType | None], None]) -> Iterator[None]:
 
 def raise_at_once(number: int, _frame: FrameType | None) -> None:
     """Handle a signal where no unit is at work: what is open is closed on the way out."""
-    raise SIGNALS[number]
+    if counts():
+        raise SIGNALS[number]
+
+
+def _ignored(number: int) -> bool:
+    """Whether a process was started so that it outlives its terminal, as by nohup."""
+    return number == getattr(signal, "SIGHUP", None) and signal.getsignal(number) is signal.SIG_IGN
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Hold a signal back until the end of the block, and raise it then; a second one is not held back."""
+    due: list[int] = []
+
+    def on_signal(number: int, _frame: FrameType | None) -> None:
+        if not counts():
+            return
+        if due:
+            raise SIGNALS[number]
+        due.append(number)
+
+    with handled(on_signal):
+        yield
+    if due:
+        raise SIGNALS[due[0]]
 
 
 @contextmanager
@@ -59,12 +106,19 @@ def interrupt_between_steps(progress: Callable[_Report, None]) -> Iterator[Calla
     due: list[int] = []
 
     def on_signal(number: int, _frame: FrameType | None) -> None:
+        if not counts():
+            return
         if due:
             raise SIGNALS[number]
         due.append(number)
 
+    main = threading.current_thread() is threading.main_thread()
+
     def report(*how_far: _Report.args, **more: _Report.kwargs) -> None:
         progress(*how_far, **more)
+        for number in SIGNALS if main else ():
+            if signal.getsignal(number) is not on_signal and not _ignored(number):
+                signal.signal(number, on_signal)  # a unit has put another in its place
         if due:
             raise SIGNALS[due[0]]
 

@@ -244,7 +244,7 @@ class Saver(Observer):
 def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
     """Write a checkpoint's file: whole, or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    fresh = path.with_name(path.name + ".part")
+    fresh = path.with_name(f"{path.name}.{os.getpid()}.part")
     text = np.frombuffer(json.dumps(meta).encode(), dtype=np.uint8)
     try:
         with fresh.open("wb") as file:

@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestrator.errors import NotWrittenError
-from orchestrator.results.folder import FIGURES, PARTIAL, RUN_FILES, free_room, result_folder
+from orchestrator.master.interrupt import held_back
+from orchestrator.results.folder import FIGURES, PARTIAL, free_room
 from orchestrator.results.record_files import write_record
+from orchestrator.results.replacing import result_folder
 from orchestrator.results.summary_table import to_text
 from orchestrator.scenario.file import scenario_toml
 
@@ -51,8 +53,8 @@ def write_all(
         When the disk is full, or cannot be written to.
     """
 
-    def draw() -> None:
-        add_figures([result.record], folder, train, summary.analysed, formats)
+    def draw(fresh: Path) -> None:
+        add_figures([result.record], fresh, train, summary.analysed, formats)
 
     with room_for([result.record], folder):
         data_then_figures(
@@ -63,12 +65,11 @@ def write_all(
 
 
 def data_then_figures(
-    folder: Path,
-    write: Callable[[Path], None],
-    draw: Callable[[], None] | None,
-    ours: Sequence[str] = RUN_FILES,
+    folder: Path, write: Callable[[Path], None], draw: Callable[[Path], None] | None
 ) -> None:
     """Write the data, all or nothing, then the figures likewise; the folder is marked as partial till then.
+
+    One signal to end is held back until the data are in their place.
 
     Parameters
     ----------
@@ -77,29 +78,49 @@ def data_then_figures(
     write : callable
         Fills a new folder with the data; may mark it as partial itself.
     draw : callable or None
-        Adds the figures to `folder`, if there are any to be.
-    ours : sequence of str
-        See `result_folder`.
+        Writes the figures into a folder, if there are any to be.
+
+    Raises
+    ------
+    NotWrittenError
+        When the data are in their place and the figures are not, whatever the reason.
     """
-    with result_folder(folder, ours) as fresh:
+    with held_back(), result_folder(folder) as fresh:
         write(fresh)
         finished = not (fresh / PARTIAL).exists()
         if draw is not None and finished:
             (fresh / PARTIAL).write_text(NO_FIGURES, encoding="utf-8")
-    if draw is not None:
-        draw()
-        if finished:
-            (folder / PARTIAL).unlink()
+    if draw is None:
+        return
+    add(folder, "figures", draw, (PARTIAL,) if finished else ())
+
+
+def add(folder: Path, what: str, draw: Callable[[Path], object], without: Sequence[str] = ()) -> None:
+    """Add what is drawn into a folder to results that are complete.
+
+    Raises
+    ------
+    NotWrittenError
+        When it is not drawn, whatever it stumbled over: it is not worth the results.
+    """
+    try:
+        with result_folder(folder, adding=True, without=without) as fresh:
+            draw(fresh)
+    except (OSError, NotWrittenError):
+        raise
+    except Exception as error:
+        reason = " ".join(f"{type(error).__name__}: {error}".split())
+        text = f"{folder}: the data are complete, the {what} not drawn: {reason}"
+        raise NotWrittenError(text) from error
 
 
 def add_figures(
     records: Sequence[xr.Dataset], folder: Path, train: Train, bearing: str | None, formats: Sequence[str]
 ) -> None:
-    """Write the figures of one or several runs into the folder of their results."""
+    """Write the figures of one or several runs into a folder of results."""
     from orchestrator.results.figures.write import write_figures  # matplotlib loads for half a second
 
-    with result_folder(folder / FIGURES) as fresh:
-        write_figures(records, fresh, train=train, bearing=bearing, formats=formats)
+    write_figures(records, folder / FIGURES, train=train, bearing=bearing, formats=formats)
 
 
 @contextmanager

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.results import manifest
 
 PARTIAL = "PARTIAL.txt"
 """Name of the file that marks a run that did not reach its end, with the reason."""
@@ -24,14 +23,19 @@ RUN_FILES = (
     FIGURES,
     PARTIAL,
 )
-_SIGN = "scenario.toml"  # a folder with this file and nothing alien to it is an earlier result
+_SIGN = "scenario.toml"  # by which an earlier result of a run is known
 
 
 class ResultFolderError(OrchestratorError):
     """A folder that cannot take results."""
 
 
-def check_folder(folder: Path, sign: str = _SIGN) -> None:
+def named(folder: Path) -> Path:
+    """The folder by a name of its own, where it is given as ``.`` or the like."""
+    return folder.resolve() if folder.name in ("", "..") else folder
+
+
+def check_folder(folder: Path, sign: str = _SIGN, ours: Sequence[str] = RUN_FILES) -> None:
     """Make sure that results can go to a folder, before hours are spent on them.
 
     Parameters
@@ -40,28 +44,51 @@ def check_folder(folder: Path, sign: str = _SIGN) -> None:
         Where they are to go.
     sign : str
         File by which an earlier result of the same kind is known.
+    ours : sequence of str
+        Files and folders of such a result.
 
     Raises
     ------
     ResultFolderError
-        When the path is a file, or a folder with files that are not an earlier result, or when nothing can
-        be written there.
+        When the path is a file, or a folder with files that are not an earlier result, or one in which
+        something that this program did not write is in the place of a result, or when nothing can be
+        written there.
     """
     check_writable(folder)
-    if folder.is_dir() and any(folder.iterdir()) and not (folder / sign).is_file():
+    if not folder.is_dir() or not any(folder.iterdir()):
+        return
+    listed = manifest.read(folder)
+    if sign not in listed:
         raise ResultFolderError(
             f"{folder}: holds files that are no earlier result; --out takes a new folder, an empty one or "
             "that of an earlier run"
         )
+    for name in ours:
+        path = folder / name
+        if path.is_dir() and not path.is_symlink():
+            continue
+        if (path.exists() or path.is_symlink()) and not manifest.is_ours(folder, name, listed):
+            raise ResultFolderError(
+                f"{folder}: {name} is not of an earlier run, or was changed since, and is left as it is; "
+                "--out takes another folder"
+            )
 
 
 def check_writable(folder: Path) -> None:
     """Raise ResultFolderError when a folder cannot be made, or nothing can be written to it."""
-    if folder.exists() and not folder.is_dir():
-        raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
-    parent = _nearest(folder)
+    try:
+        if folder.is_symlink() and not folder.exists():
+            raise ResultFolderError(f"{folder}: is a link that leads nowhere; --out takes a folder")
+        if folder.exists() and not folder.is_dir():
+            raise ResultFolderError(f"{folder}: is a file; --out takes a folder")
+        if not folder.name:
+            raise ResultFolderError(f"{folder}: has no name; --out takes a folder")
+        parent = _nearest(folder)
+        longest = temporary_prefix(partial_folder(folder))
+    except OSError as error:
+        raise ResultFolderError(f"{folder}: {error.strerror}; --out takes a folder") from None
     try:  # what the permissions say is not all: the file system may be read-only or full
-        with tempfile.TemporaryFile(dir=parent) as file:
+        with tempfile.NamedTemporaryFile(prefix=longest, dir=parent) as file:
             file.write(b"room for a file")
     except OSError as error:
         raise ResultFolderError(f"{folder}: nothing can be written in {parent}: {error.strerror}") from None
@@ -95,63 +122,3 @@ def partial_folder(folder: Path) -> Path:
 def temporary_prefix(folder: Path) -> str:
     """How the names begin of what is only written, and not yet the results in `folder`."""
     return f".{folder.name}-writing-"
-
-
-@contextmanager
-def result_folder(folder: Path, ours: Sequence[str] = RUN_FILES) -> Iterator[Path]:
-    """Write results into a temporary folder that takes its place at the end.
-
-    Parameters
-    ----------
-    folder : Path
-        Where the results go.  Results of an earlier run in it are replaced, other files stay.
-    ours : sequence of str
-        Files and folders of an earlier result.
-
-    Yields
-    ------
-    Path
-        The temporary folder; it vanishes when the block raises, and `folder` stays as it was. A process
-        that is killed leaves the old results, the new ones, or a folder that is marked as partial.
-    """
-    missing = [path for path in folder.parents if not path.exists()]
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=temporary_prefix(folder), dir=folder.parent))
-    try:
-        yield temporary
-        if folder.is_dir():
-            _replace(temporary, folder, ours)
-        else:
-            temporary.chmod(0o777 & ~_umask())
-            temporary.rename(folder)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-        if not folder.exists():
-            for path in missing:
-                path.rmdir()
-
-
-def _replace(fresh: Path, folder: Path, ours: Sequence[str]) -> None:
-    """Put the files of `fresh` into `folder` in place of those of an earlier run, marked meanwhile."""
-    mark, own = folder / PARTIAL, fresh / PARTIAL
-    mark.write_text("The results are not complete: the process ended while it replaced earlier ones.\n")
-    for name in ours:
-        target = folder / name
-        if target.is_dir():
-            shutil.rmtree(target)
-        elif target != mark:
-            target.unlink(missing_ok=True)
-    for path in fresh.iterdir():
-        if path != own:
-            path.rename(folder / path.name)
-    if own.exists():
-        own.replace(mark)
-    else:
-        mark.unlink()
-
-
-def _umask() -> int:
-    """The process's mask for new files, which mkdtemp overrides."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

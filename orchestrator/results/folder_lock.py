@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -10,12 +9,13 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from orchestrator.results.folder import FIGURES, ResultFolderError, partial_folder, temporary_prefix
+from orchestrator.results.folder import ResultFolderError, partial_folder
+from orchestrator.results.replacing import finish_replacing
 
 
 @contextmanager
 def lock_folder(folder: Path) -> Iterator[Callable[[], None]]:
-    """Keep other runs away from a folder, and remove what a killed run left half-written beside it.
+    """Keep other runs away from a folder, and complete or remove what a killed run left half-written.
 
     The lock is on a file beside the folder.  It ends with the process, however that ends.
 
@@ -37,6 +37,8 @@ def lock_folder(folder: Path) -> Iterator[Callable[[], None]]:
     made = [path for path in folder.absolute().parents if not path.exists()]
     folder.parent.mkdir(parents=True, exist_ok=True)
     path = folder.with_name(f".{folder.name}.lock")
+    if path.is_symlink() or (path.exists() and path.stat().st_size):  # which the lock would empty
+        raise ResultFolderError(f"{path}: is not of bladeloss; move it, or name another folder with --out")
     lock = FileLock(path, timeout=0)
     try:
         lock.acquire()
@@ -46,8 +48,7 @@ def lock_folder(folder: Path) -> Iterator[Callable[[], None]]:
         ) from None
     try:
         for place in (folder, partial_folder(folder)):
-            _remove_rests(place.parent, temporary_prefix(place))
-            _remove_rests(place, temporary_prefix(place / FIGURES))
+            finish_replacing(place)
         yield partial(path.unlink, missing_ok=True)
     finally:
         with suppress(OSError):  # where an open file cannot be removed, its release does it
@@ -56,9 +57,3 @@ def lock_folder(folder: Path) -> Iterator[Callable[[], None]]:
         with suppress(OSError):  # something came into it
             for parent in made:
                 parent.rmdir()
-
-
-def _remove_rests(folder: Path, prefix: str) -> None:
-    for path in folder.iterdir() if folder.is_dir() else ():
-        if path.name.startswith(prefix):
-            shutil.rmtree(path, ignore_errors=True)

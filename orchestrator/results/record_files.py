@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
+import uuid
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
@@ -94,12 +93,9 @@ def _write_table(record: xr.Dataset, path: Path) -> None:
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
     """Write beside the target and move the finished file there."""
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}_", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
-    part = Path(name)
+    part = path.with_name(f".{path.stem}_{uuid.uuid4().hex}{path.suffix}")
     try:
         write(part)
-        part.chmod(0o644)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)

@@ -18,7 +18,7 @@ from types import FrameType
 from typing import IO
 
 from orchestrator.errors import OrchestratorError
-from orchestrator.master.interrupt import handled, raise_at_once
+from orchestrator.master.interrupt import SIGNALS, counts, handled
 from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
 from orchestrator.results.folder import partial_folder
 
@@ -204,9 +204,11 @@ def run_children(
     waiting, running, ended = list(children), dict[str, _Process](), dict[str, Ended]()
     asked: list[int] = []
 
-    def on_signal(number: int, frame: FrameType | None) -> None:
+    def on_signal(number: int, _frame: FrameType | None) -> None:
+        if not counts():
+            return
         if asked:
-            raise_at_once(number, frame)
+            raise SIGNALS[number]
         asked.append(number)
         for process in list(running.values()):
             process.tell(number)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from orchestrator.results.figures.deformed_train import deformed_train
@@ -61,11 +63,21 @@ def write_figures(
     }
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for name, draw in drawings.items():
-        figure = draw()
-        FigureCanvasAgg(figure)
-        for kind in formats:
-            path = folder / f"{name}.{kind}"
-            figure.savefig(path)
-            written.append(path)
+    with own_settings():
+        for name, draw in drawings.items():
+            figure = draw()
+            FigureCanvasAgg(figure)
+            for kind in formats:
+                path = folder / f"{name}.{kind}"
+                figure.savefig(path)
+                written.append(path)
     return written
+
+
+@contextmanager
+def own_settings() -> Iterator[None]:
+    """Draw by matplotlib's defaults, whatever the user's matplotlibrc says, and take titles as they are."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams["text.parse_math"] = False
+        yield

@@ -20,6 +20,7 @@ from orchestrator.cli.main import app
 from orchestrator.commands import run as run_command
 from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.figures.write import FORMATS
+from orchestrator.results.manifest import MANIFEST
 from orchestrator.results.record_files import read_record
 from orchestrator.results.result import Result, Timing
 from orchestrator.scenario import scenario
@@ -189,7 +190,7 @@ def test_a_run_leaves_everything_and_says_where(short_run):
         "vibration-amplitude",
     )
     figures = [f"figures/{name}.png" for name in names]
-    others = ["record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
+    others = [MANIFEST, "record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
     assert files(folder / "out") == sorted(figures + others)
     assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]
     built = [name.partition("-")[0] for name in files(folder / "fmus")]

@@ -3,7 +3,6 @@
 import os
 import signal
 import time
-from pathlib import Path
 
 import pytest
 
@@ -11,9 +10,10 @@ from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError
 from orchestrator.outcome import INPUT_ERROR, Outcome
-from orchestrator.results.folder import ResultFolderError, check_folder, result_folder
+from orchestrator.results.folder import ResultFolderError
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.record_files import read_record
+from orchestrator.results.replacing import result_folder
 from tests.faults import fault
 from tests.orchestrator.foreign import call
 from tests.orchestrator.process import command, done
@@ -148,40 +148,6 @@ def write(folder, text):
 def results(folder, text):
     with result_folder(folder) as fresh:
         write(fresh, text)
-
-
-@pytest.mark.parametrize("moves", [0, 1, 2])
-@fault(
-    "process",
-    "kill -9 while earlier results are replaced",
-    "the folder is marked: PARTIAL.txt with the reason; the next run to it cleans up",
-    guard="orchestrator.results.folder:_replace",
-)
-def test_a_kill_while_results_are_replaced(moves, tmp_path):
-    out = tmp_path / "out"
-    results(out, "old")
-    rename = Path.rename
-
-    def work():
-        left = [moves]
-
-        def killing(path, target):
-            if not left[0]:
-                os.kill(os.getpid(), signal.SIGKILL)
-            left[0] -= 1
-            return rename(path, target)
-
-        Path.rename = killing
-        results(out, "new")
-
-    killed_in(work)
-    assert "not complete: the process ended" in (out / "PARTIAL.txt").read_text()
-    check_folder(out.with_name("else"))
-    with lock_folder(out):
-        results(out, "newer")
-    assert sorted(path.name for path in out.iterdir()) == ["record.nc", "scenario.toml", "summary.json"]
-    assert (out / "record.nc").read_text() == "newer"
-    assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
 @fault(

@@ -5,8 +5,64 @@ import signal
 import pytest
 
 from orchestrator.case.progress import Stage
+from orchestrator.errors import Terminated
+from orchestrator.master import interrupt
 from orchestrator.master.interrupt import interrupt_between_steps
 from tests.faults import fault
+
+
+@pytest.fixture(autouse=True)
+def each_counts(monkeypatch):
+    """However soon a signal follows another."""
+    monkeypatch.setattr(interrupt, "TOGETHER", 0.0)
+
+
+@fault(
+    "process",
+    "the same signal twice within a millisecond, from terminal and batch system",
+    "it counts once",
+    guard="orchestrator.master.interrupt:counts",
+)
+def test_signals_that_come_together_count_once(monkeypatch):
+    monkeypatch.setattr(interrupt, "TOGETHER", 10.0)
+    monkeypatch.setattr(interrupt._Last, "time", -1e9)
+    with pytest.raises(Terminated), interrupt_between_steps(lambda stage, time: None) as report:
+        signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(signal.SIGTERM)
+        report(Stage.RUN, 0.1)
+
+
+@fault(
+    "process",
+    "SIGHUP, as when a terminal is closed",
+    "as SIGTERM; ignored where the run was started to outlive its terminal",
+    guard="orchestrator.master.interrupt:SIGNALS",
+)
+def test_a_closed_terminal_ends_a_run_between_steps():
+    with pytest.raises(Terminated), interrupt_between_steps(lambda stage, time: None) as report:
+        signal.raise_signal(signal.SIGHUP)
+        report(Stage.RUN, 0.1)
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with interrupt_between_steps(lambda stage, time: None) as report:
+            signal.raise_signal(signal.SIGHUP)
+            report(Stage.RUN, 0.1)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+@fault(
+    "unit",
+    "a unit that puts a handler of its own in the place of ours",
+    "ours is back before the next step",
+    guard="orchestrator.master.interrupt:interrupt_between_steps",
+)
+def test_a_unit_that_takes_the_handlers():
+    with pytest.raises(KeyboardInterrupt), interrupt_between_steps(lambda stage, time: None) as report:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        report(Stage.RUN, 0.1)
+        signal.raise_signal(signal.SIGINT)
+        report(Stage.RUN, 0.2)
 
 
 @fault(

@@ -7,8 +7,9 @@ from orchestrator.results.folder import (
     ResultFolderError,
     check_folder,
     partial_folder,
-    result_folder,
 )
+from orchestrator.results.manifest import MANIFEST
+from orchestrator.results.replacing import result_folder
 from tests.faults import fault
 
 
@@ -32,7 +33,7 @@ def test_a_new_folder_appears_with_its_parents(tmp_path):
     "machine",
     "an error while results are written",
     "no folder, and no parent that was made for it",
-    guard="orchestrator.results.folder:result_folder",
+    guard="orchestrator.results.replacing:result_folder",
 )
 def test_nothing_is_left_when_writing_fails(tmp_path):
     target = tmp_path / "results" / "run"
@@ -52,7 +53,7 @@ def test_an_earlier_result_is_replaced_and_other_files_stay(tmp_path):
     with result_folder(target) as fresh:
         write(fresh, "two")
     names = sorted(path.relative_to(target).as_posix() for path in target.rglob("*"))
-    assert names == ["figures", "figures/two.png", "notes.txt", "scenario.toml"]
+    assert names == [MANIFEST, "figures", "figures/two.png", "notes.txt", "scenario.toml"]
 
 
 def test_an_earlier_result_survives_a_failure(tmp_path):

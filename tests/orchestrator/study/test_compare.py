@@ -14,6 +14,7 @@ from orchestrator.cli.main import app
 from orchestrator.commands import compare as compare_command
 from orchestrator.commands.compare import CompareRequest
 from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
+from orchestrator.results.manifest import MANIFEST
 from orchestrator.results.record_files import read_record
 from orchestrator.scenario.file import load_scenario
 from orchestrator.study.compare import COMPARED, refine
@@ -58,7 +59,9 @@ def compared(tmp_path_factory):
 def test_a_comparison_leaves_table_figures_and_runs(compared):
     folder, said = compared
     runs = [f"{depth}/{name}" for depth in ("v1", "v2", "v3") for name in RUN]
-    others = ["comparison.csv", "comparison.json", "comparison.txt"] + [f"figures/{name}" for name in FIGURES]
+    others = [MANIFEST, "comparison.csv", "comparison.json", "comparison.txt"] + [
+        f"figures/{name}" for name in FIGURES
+    ]
     expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/{run}")]
     assert files(folder / "out") == sorted(expected)
     assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]

@@ -3,6 +3,7 @@
 import ctypes
 import math
 import os
+import sys
 import time
 
 from spring_bearing import OUTPUTS, SpringBearing
@@ -30,6 +31,15 @@ class FaultyBearing(SpringBearing):
                 pass
         elif fault == "lock":  # keeps Python's lock, as a native library does that is called with it
             ctypes.PyDLL(None).usleep(int(LONG * 1e6))
+        elif fault == "os._exit":
+            os._exit(0)
+        elif fault == "exit":
+            sys.exit(0)
+        elif fault == "end":
+            ctypes.pythonapi.Py_Exit(0)
+        elif fault == "folder":
+            os.chdir("/")
+            os.umask(0)
         done = super().do_step(current_time, step_size)
         if fault == "nan":
             self.values.update(dict.fromkeys(OUTPUTS, math.nan))
