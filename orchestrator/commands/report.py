@@ -12,6 +12,8 @@ from orchestrator.report.facts import conclusion
 from orchestrator.report.library import require_library
 from orchestrator.report.source import ReportError, load_results
 from orchestrator.report.write import FILE, write_report
+from orchestrator.results import manifest
+from orchestrator.results.files import add
 from orchestrator.results.verdicts.limits import load_limits
 
 
@@ -59,7 +61,11 @@ def run(request: ReportRequest, console: Console) -> int:
         raise ReportError(f"{request.file}: is a folder; --out takes the file of the page, such as {FILE}")
     limits = None if request.limits is None else load_limits(request.limits)
     results = load_results(request.results, limits)
-    path = write_report(results, request.file, request.bearing)
+    path = request.file
+    if path.name == FILE and manifest.read(path.parent):  # a part of these results, listed with them
+        add(path.parent, "report", lambda fresh: write_report(results, fresh / FILE, request.bearing))
+    else:
+        write_report(results, path, request.bearing)
     for result in results:
         action, reasons = conclusion(result)
         console.print(f"{result.name} - {action}: {reasons}", highlight=False, markup=False, soft_wrap=True)
