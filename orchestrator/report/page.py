@@ -140,7 +140,7 @@ def _main(results: Sequence[Result], ids: dict[str, Panel]) -> Markup:
 
 def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: Sequence[Result]) -> Markup:
     several = len(results) > 1
-    side = several and key not in ("series", "spectra", "shaft")
+    side = several and key in ("orbits", "waterfall")
     look = "panels side" if side else "panels small" if key == "orbits" else "panels"
     legend: tuple[Markup, ...] = ()
     if key == "orbits":

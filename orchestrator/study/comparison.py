@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
+from orchestrator.results.verdicts.judge import judge
+from orchestrator.results.verdicts.limits import load_limits, own_file
+from orchestrator.results.verdicts.verdict import Verdict
 from orchestrator.scenario.events import BladeLoss
 from orchestrator.study.children import Ended
 from orchestrator.study.depth_run import DepthRun, read_run
@@ -50,6 +53,8 @@ class Comparison:
         Figures of the runs by depth, the deepest first.
     ended : mapping
         How each run ended, by depth.
+    verdicts : mapping
+        Of each depth that left a record, held against the limits of the machine.
     """
 
     title: str
@@ -59,6 +64,7 @@ class Comparison:
     blade_force: float
     runs: Mapping[str, DepthRun]
     ended: Mapping[str, Ended] = field(default_factory=dict)
+    verdicts: Mapping[str, tuple[Verdict, ...]] = field(default_factory=dict)
 
     def bearing(self, depth: str, phase: str) -> BearingStatistics:
         """Statistics of the analysed bearing; raises `NotEvaluatedError`."""
@@ -111,6 +117,7 @@ def gather(
         else read_run(record, depth, bearing, unfinished=unfinished[depth])
         for depth, record in records.items()
     }
+    limits = load_limits(own_file(scenario))
     return Comparison(
         title=scenario.title or scenario.train,
         train=train.name,
@@ -119,4 +126,9 @@ def gather(
         blade_force=sum(e.unbalance for e in scenario.events if isinstance(e, BladeLoss)) * train.speed**2,
         runs=runs,
         ended=ended,
+        verdicts={
+            depth: judge(record, limits)
+            for depth, record in records.items()
+            if record is not None and "bearing_clearance" in record
+        },
     )

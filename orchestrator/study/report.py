@@ -22,6 +22,7 @@ from orchestrator.results.windows import Phase
 from orchestrator.study.comparison import Comparison
 from orchestrator.study.conclusions import Limits, conclude
 from orchestrator.study.depth_table import DepthRow, depth_rows
+from orchestrator.study.verdict_table import verdict_tables
 
 TEXT_WIDTH = 120
 
@@ -126,6 +127,7 @@ class Report:
         sentences = [Text(item.sentence()) for item in conclude(found, self.limits)]
         limits = Text(self.limits.text(), style="dim")
         yield from section("What an engineer would have concluded", [*sentences, limits])
+        yield from section("Every limit, where most of it is used", verdict_tables(found))
         if fine is not None:
             yield from _failures(fine)
             heading = f"Check: {fine.settings.text()} in place of {found.settings.text()}"
@@ -162,6 +164,7 @@ class Report:
             "settings": asdict(found.settings),
             "runs": {depth: asdict(end) for depth, end in found.ended.items()},
             **self.data(found),
+            "verdicts": {d: [asdict(v) for v in judged] for d, judged in found.verdicts.items()},
             "conclusions": [
                 {**asdict(item), "sentence": item.sentence()} for item in conclude(found, self.limits)
             ],

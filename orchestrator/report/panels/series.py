@@ -45,7 +45,7 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
         having = [result for result in results if bearing in result.bearings]
         touching = any(result.touching(bearing).any() for result in having)
         table = _ROWS if touching else _ROWS[:2]
-        traces, shown = [], layout(**event_lines(having), showlegend=len(results) > 1)
+        traces, shown = [], layout(**event_lines(having), showlegend=False)
         for k, ((label, quantity, read), span) in enumerate(zip(table, rows(len(table)), strict=True)):
             values = [read(result, bearing) for result in having]
             largest = max(float(np.nanmax(np.abs(v))) for v in values)
@@ -77,7 +77,7 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
 
 def shaft_series(results: Sequence[Result]) -> Iterator[Panel]:
     """The largest amplitude and the largest normal stress along the shaft."""
-    traces, shown = [], layout(**event_lines(results), showlegend=len(results) > 1)
+    traces, shown = [], layout(**event_lines(results), showlegend=False)
     samples = max(300, 2 * SAMPLES // len(results))
     table = (("vibration_amplitude_max", AMPLITUDE), ("normal_stress_max", STRESS))
     for k, ((name, quantity), span) in enumerate(zip(table, rows(2), strict=True)):
