@@ -7,10 +7,8 @@ import math
 from rich import box
 from rich.table import Table
 
+from orchestrator.results.figures.style import PLANAR
 from rotor_fmu.linear.analysis import LeastDamped
-
-PLANAR = 0.2
-"""Whirl direction below which a mode is called planar."""
 
 _COLUMNS = {"irs": "IRS", "irs-plain": "IRS\nplain", "guyan": "Guyan", "craig-bampton": "CMS"}
 COLUMNS_EXPLAINED = "IRS: complemented, the default of runs; IRS plain: as published; CMS: Craig-Bampton."

@@ -78,10 +78,10 @@ def _panel(axes: Axes, mode: xr.Dataset, train: Train) -> None:
     at = [train.z[seat.node] for seat in train.bearings]
     axes.plot(at, np.full(len(at), -1.12), "^", color="#333333", markersize=5, clip_on=False)
     ratio, whirl = float(mode["damping_ratio"]), float(mode["whirl_direction"])
-    sense = "forward" if whirl > 0.0 else "backward"
+    sense = "planar" if abs(whirl) < style.PLANAR else "forward" if whirl > 0.0 else "backward"
     axes.set_title(
         f"{int(mode['mode'])}:  {float(mode['frequency']):.2f} Hz,  damping ratio {ratio:.3f},  "
-        f"{sense} {abs(whirl):.2f}" + ("  unstable" if ratio < 0.0 else ""),
+        f"{sense} {whirl:+.2f}" + ("  unstable" if ratio < 0.0 else ""),
         loc="left",
         fontsize=style.FONT,
         color="#CC0000" if ratio < 0.0 else "#000000",

@@ -27,6 +27,9 @@ CENTRE_LINE = "#4D4D4D"
 EVENT = "#000000"
 MEAN = "#000000"
 CONTACT = "#AA0055"
+PLANAR = 0.2
+"""Whirl direction below which a mode is called planar."""
+
 WHIRL_COLOURS = {"forward": "#0072B2", "backward": "#E69F00"}
 WHIRL_MAP = LinearSegmentedColormap.from_list("whirl", ["#E69F00", "#999999", "#0072B2"])
 """From backward over planar to forward."""
