@@ -12,7 +12,7 @@ import numpy as np
 from fmus import port
 from rotor_fmu.linear.harmonic import unbalance_response
 from rotor_fmu.linear.whirl import LinearBearings
-from rotor_fmu.reduction.condensation import condense_static
+from rotor_fmu.shaft.condensation import condense_static
 from rotor_fmu.shaft.matrices import assemble
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train

@@ -153,6 +153,20 @@ def test_no_module_imports_itself_by_way_of_others():
     assert not circle(edges(*PACKAGES) - UPWARDS - CIRCLES)
 
 
+def test_folders_of_the_rotor_import_one_another_in_one_direction():
+    """But for the check of a train's loads, which needs the statics of its shaft."""
+
+    def folder(module):
+        return module.split(".")[1]
+
+    arrows = {
+        (folder(a), folder(b))
+        for a, b in edges("rotor_fmu")
+        if b.startswith("rotor_fmu.") and (a, b) != ("rotor_fmu.train.checks", "rotor_fmu.shaft.statics")
+    }
+    assert not circle({(a, b) for a, b in arrows if a != b})
+
+
 def test_no_file_is_long():
     lengths = {
         path.relative_to(ROOT).as_posix(): len(path.read_text().splitlines()) for path in MODULES.values()

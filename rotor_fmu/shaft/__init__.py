@@ -1,1 +1,1 @@
-"""The unreduced shaft: elements, matrices, statics, fields."""
+"""The unreduced shaft: elements, matrices, statics, stress."""

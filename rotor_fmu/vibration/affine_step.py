@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
 
 Array = NDArray[np.float64]

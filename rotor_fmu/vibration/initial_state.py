@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.condensation import CondensedShaft
+from rotor_fmu.shaft.condensation import CondensedShaft
 from rotor_fmu.vibration.state import RotorState
 
 Array = NDArray[np.float64]

@@ -10,12 +10,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.condensation import CondensedShaft, condense_harmonic
+from rotor_fmu.shaft.condensation import CondensedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
-from rotor_fmu.shaft.unbalance import Unbalance
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.harmonic_shaft import condense_harmonic
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import ModalCoordinates
+from rotor_fmu.vibration.unbalance import Unbalance
 from rotor_fmu.vibration.whirl_coordinates import whirl_coordinates
 from rotor_fmu.vibration.work import WorkMaps, work_maps
 

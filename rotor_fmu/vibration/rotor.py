@@ -8,18 +8,18 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rotor_fmu.reduction.condensation import Equilibrium, condense_static
 from rotor_fmu.reduction.reduce import Method
-from rotor_fmu.shaft.fields import Extremes, FieldMap, NodeFields
-from rotor_fmu.shaft.prepared import PreparedShaft, prepare_shaft
-from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.shaft.condensation import Equilibrium, condense_static
 from rotor_fmu.train.train import Train
 from rotor_fmu.vibration import initial_state
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
 from rotor_fmu.vibration.coordinates import Coordinates
 from rotor_fmu.vibration.energy import Energy, EnergyMeter
+from rotor_fmu.vibration.fields import Extremes, FieldMap, NodeFields
 from rotor_fmu.vibration.map_cache import MapCache
+from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.state import RotorState
+from rotor_fmu.vibration.unbalance import Unbalance
 from rotor_fmu.vibration.work import Work, WorkLedger
 
 Array = NDArray[np.float64]

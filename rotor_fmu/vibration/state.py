@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.work import Work
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import augmented_matrix
 

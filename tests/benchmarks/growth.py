@@ -19,11 +19,11 @@ from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Graph
 from rotor_fmu.reduction.reduce import reduce
-from rotor_fmu.shaft.prepared import PreparedShaft, prepare_shaft
-from rotor_fmu.shaft.unbalance import Unbalance
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.unbalance import Unbalance
 from tests.bearing_fmu.bearings import lever, plain
 from tests.benchmarks.rotor import oil_films
 from tests.benchmarks.table import least_time, show

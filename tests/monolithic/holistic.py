@@ -23,13 +23,13 @@ from bearing_fmu.parameters import BearingParameters
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.scenario.parameters import rotor_parameters
 from orchestrator.scenario.scenario import Scenario
-from rotor_fmu.reduction.condensation import Equilibrium
-from rotor_fmu.shaft.prepared import prepare_shaft
-from rotor_fmu.shaft.unbalance import Unbalance
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.train.train import BearingSeat, Train
 from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.prepared import prepare_shaft
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state_space import journal_output, state_matrix
+from rotor_fmu.vibration.unbalance import Unbalance
 
 Array = NDArray[np.float64]
 

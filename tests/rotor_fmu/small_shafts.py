@@ -9,11 +9,11 @@ import scipy.sparse as sp
 
 from rotor_fmu.reduction.reduce import ReducedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
-from rotor_fmu.shaft.prepared import PreparedShaft
 from rotor_fmu.shaft.stress import BendingStress
-from rotor_fmu.shaft.unbalance import Unbalance
 from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.prepared import PreparedShaft
 from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.unbalance import Unbalance
 
 
 def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):

@@ -15,12 +15,12 @@ from rotor_fmu.reduction import reduce as reduction
 from rotor_fmu.reduction.irs import ReductionError, irs_iterations
 from rotor_fmu.reduction.masters import default_masters
 from rotor_fmu.reduction.reduce import METHODS, reduce
-from rotor_fmu.shaft import prepared as prepared_shaft
 from rotor_fmu.shaft.banded import lowest_modes
 from rotor_fmu.shaft.matrices import assemble
-from rotor_fmu.shaft.prepared import prepare_shaft
 from rotor_fmu.start_values import default_starts
+from rotor_fmu.vibration import prepared as prepared_shaft
 from rotor_fmu.vibration.modal_shaft import to_modal
+from rotor_fmu.vibration.prepared import prepare_shaft
 from tests.rotor_fmu.meshes import exact_frequencies, meshed
 
 MESHES = (3, 4, 12, 56, 80, 200, 800, 1600)

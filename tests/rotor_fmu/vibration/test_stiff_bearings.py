@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.affine_step import AffineStep
 from rotor_fmu.vibration.coordinates import Compliance
 from tests.rotor_fmu.small_shafts import (

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad_vec
 
-from rotor_fmu.shaft.prepared import prepare_shaft
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration.first_order_hold import harmonic_hold, linear_hold
 from rotor_fmu.vibration.modal_shaft import ModalShaft, to_modal
+from rotor_fmu.vibration.prepared import prepare_shaft
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 from rotor_fmu.vibration.state_space import ModalCoordinates

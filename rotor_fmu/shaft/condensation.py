@@ -22,12 +22,11 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.banded import lower_band
 from rotor_fmu.shaft.matrices import ShaftModel
-from rotor_fmu.vibration.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
 Scalar = TypeVar("Scalar", np.float64, np.complex128)
 
-_REFERENCE_FREQUENCY = 10.0
+REFERENCE_FREQUENCY = 10.0
 """Of the shaft's mass on the static reference springs [rad/s]: between weak and oil-film springs."""
 
 _LEAST_CONDITION = 1e-11
@@ -65,7 +64,9 @@ class CondensedShaft(Generic[Scalar]):
 
     def at_positions(self, journals: NDArray[Scalar]) -> Equilibrium[Scalar]:
         """Equilibrium with prescribed journals q, (4 n_b,)."""
-        return self._under(_solve(self.journal_wrench, journals - self.journal_load, "prescribed journals"))
+        return self._under(
+            solve_held(self.journal_wrench, journals - self.journal_load, "prescribed journals")
+        )
 
     def under_law(self, F0: NDArray[Scalar], K: NDArray[Scalar]) -> Equilibrium[Scalar]:
         """Equilibrium under w = F0 - K q.
@@ -95,7 +96,7 @@ class CondensedShaft(Generic[Scalar]):
         matrix = (beyond @ size.reshape(blocks, 4, loads)).reshape(loads, loads)
         matrix[np.diag_indices(loads)] += 1.0
         rhs = F0 - (beyond @ self.journal_load.reshape(blocks, 4, 1)).ravel()
-        return self._under(_solve(matrix, rhs, "stiffness K of the affine laws"))
+        return self._under(solve_held(matrix, rhs, "stiffness K of the affine laws"))
 
     def _under(self, load: NDArray[Scalar]) -> Equilibrium[Scalar]:
         journals = self.journal_load + self.journal_wrench @ load
@@ -118,7 +119,7 @@ def condense_static(model: ShaftModel, gravity: float) -> CondensedShaft[np.floa
     CondensedShaft
         Of the n displacements of the unreduced shaft.
     """
-    reference = _springs(model, _REFERENCE_FREQUENCY)
+    reference = reference_springs(model, REFERENCE_FREQUENCY)
     dofs = model.bearing_dofs.ravel()
     loads = np.zeros((model.size, 1 + len(dofs)))
     loads[:, 0] = gravity * model.gravity
@@ -126,45 +127,18 @@ def condense_static(model: ShaftModel, gravity: float) -> CondensedShaft[np.floa
     band = lower_band(model.K)
     np.add.at(band[0], dofs, reference)
     shapes = scipy.linalg.solveh_banded(band, loads, lower=True)
-    return _condensed(shapes, shapes[dofs], reference)
+    return condensed(shapes, shapes[dofs], reference)
 
 
-def condense_harmonic(
-    model: ShaftModel, shaft: ModalShaft, speed: float, harmonic: Array
-) -> CondensedShaft[np.complex128]:
-    """The reduced shaft in steady vibration Re(. e^{i theta}) at a speed.
-
-    Parameters
-    ----------
-    model, shaft : ShaftModel, ModalShaft
-        The shaft, unreduced (for its mass and length) and reduced.
-    speed : float
-        [rad/s]; at 0 the shaft is condensed as if it crept, so that prescribed orbits are followed.
-    harmonic : ndarray, (m, 2)
-        Modal force, factors of (cos theta, sin theta).
-
-    Returns
-    -------
-    CondensedShaft
-        Of the m modal coordinates; a law enters with stiffness K + i speed C.
-    """
-    # Reference dampers: no vibration at any speed is resonant on them.
-    reference = 1j * _springs(model, speed or _REFERENCE_FREQUENCY)
-    B = shaft.bearing
-    Z = shaft.dynamic_stiffness(speed) + (B.T * reference) @ B
-    loads = np.hstack([(harmonic[:, 0] - 1j * harmonic[:, 1])[:, None], B.T.astype(np.complex128)])
-    shapes = _solve(Z, loads, f"dynamic stiffness at {speed:g} rad/s")
-    return _condensed(shapes, B @ shapes, reference)
-
-
-def _condensed(
+def condensed(
     shapes: NDArray[Scalar], journals: NDArray[Scalar], reference: NDArray[Scalar]
 ) -> CondensedShaft[Scalar]:
+    """The shaft of its responses, (n, 1 + 4 n_b), to the load and unit wrenches, and of their journals."""
     load, wrench = np.ascontiguousarray(shapes[:, 0]), np.ascontiguousarray(shapes[:, 1:])
     return CondensedShaft(load, wrench, journals[:, 0], np.ascontiguousarray(journals[:, 1:]), reference)
 
 
-def _springs(model: ShaftModel, frequency: float) -> Array:
+def reference_springs(model: ShaftModel, frequency: float) -> Array:
     """Reference springs on which the shaft's mass would swing at `frequency`, (4 n_b,)."""
     count = len(model.bearing_dofs)
     across = np.zeros(model.size)
@@ -174,7 +148,7 @@ def _springs(model: ShaftModel, frequency: float) -> Array:
     return np.tile([radial, radial, radial * arm**2, radial * arm**2], count)
 
 
-def _solve(matrix: NDArray[Scalar], rhs: NDArray[Scalar], what: str) -> NDArray[Scalar]:
+def solve_held(matrix: NDArray[Scalar], rhs: NDArray[Scalar], what: str) -> NDArray[Scalar]:
     """Solve, refusing a matrix that is singular to working precision."""
     scale = np.abs(matrix).max(axis=1, keepdims=True)
     if not (np.all(np.isfinite(matrix)) and np.all(scale > 0.0)):

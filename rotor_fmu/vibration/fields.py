@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor_fmu.reduction.condensation import Equilibrium
+from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.shaft.stress import BendingStress
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
