@@ -13,6 +13,7 @@ import numpy as np
 from orchestrator.outcome import Outcome
 from orchestrator.report.panels.spectra import probes_of
 from orchestrator.report.source import Result
+from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import ledger_of
 from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown
 from orchestrator.results.signals.orders import order_amplitudes, probe_signals
@@ -85,6 +86,9 @@ def trust(result: Result) -> Iterator[Fact]:
         yield Fact(
             "film regime", f"laminar; largest Re {most.value:.0f} against {most.bound:.0f}", Level.GOOD
         )
+    mode = least_damped_of(result.record)
+    if mode is not None:
+        yield Fact("stability", str(mode), Level.GOOD if mode.stable else Level.BAD)
     notes = [f"{phase.name}: {phase.note}" for phase in result.phases if phase.note]
     if notes:
         yield Fact("windows", "; ".join(notes), Level.MIND)

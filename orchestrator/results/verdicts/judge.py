@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator.results.film_regime import regimes
 from orchestrator.results.geometry import bearing_value
-from orchestrator.results.quantities import FORCE, GAP, NUMBER, PRESSURE, STRESS, VIBRATION, shown
+from orchestrator.results.least_damped import least_damped_of
+from orchestrator.results.quantities import FORCE, GAP, NUMBER, PRESSURE, RATIO, STRESS, VIBRATION, shown
 from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, shaft_statistics
 from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
@@ -56,7 +58,8 @@ def judge(record: xr.Dataset, limits: Limits) -> tuple[Verdict, ...]:
         one = _Bearing.of(record, name, found)
         for phase in found:
             verdicts += one.verdicts(phase, limits)
-        verdicts += one.film_regime(limits)
+    verdicts += _regimes(record, limits)
+    verdicts += _stability(record, limits)
     if limits.stress is not None:
         verdicts += _stress(record, found, limits)
     return tuple(verdicts)
@@ -149,18 +152,6 @@ class _Bearing:
         found = held(limit, words, place, VIBRATION, value, c_d, note=note, instant=when, trips=True)
         return replace(found, grade=grade)
 
-    def film_regime(self, limits: Limits) -> Iterator[Verdict]:
-        """Whether the film is laminar, as the films here take it to be."""
-        if (limit := limits.laminar_film) is None:
-            return
-        clearance, viscosity = (bearing_value(self.record, k, self.name) for k in ("clearance", "viscosity"))
-        reynolds = limit.oil_density * abs(self.speed) * self.diameter / 2.0 * clearance / viscosity
-        bound = limit.factor * math.sqrt(self.diameter / 2.0 / clearance)
-        found = held(limit, "laminar film, Re", ("all", self.name), NUMBER, reynolds, bound)
-        if found.grade is Grade.BEYOND:  # the limit of the model, not of the machine
-            found = replace(found, grade=Grade.CLOSE, note="beyond laminar theory")
-        yield found
-
     def _when(self, name: str, phase: Phase, *, least: bool = False) -> float | None:
         """Instant of a phase's extreme."""
         if name not in self.record:
@@ -171,6 +162,29 @@ class _Bearing:
             return None
         chosen = values[inside]
         return float(self.time[inside[int(np.argmin(chosen) if least else np.argmax(chosen))]])
+
+
+def _regimes(record: xr.Dataset, limits: Limits) -> Iterator[Verdict]:
+    """Whether films that are taken as laminar are: the limit of a model, not of a machine."""
+    limit = limits.laminar_film
+    for film in regimes(record) if limit is not None else ():
+        place = "all", film.bearing
+        found = held(limit, "laminar film, Re", place, NUMBER, film.reynolds, film.taylor)
+        if not film.laminar:
+            found = replace(found, grade=Grade.WITHIN, note="turbulence is in the film")
+        elif film.beyond:
+            found = replace(found, grade=Grade.CLOSE, note="beyond laminar theory")
+        yield found
+
+
+def _stability(record: xr.Dataset, limits: Limits) -> Iterator[Verdict]:
+    """The least damped mode where the train runs."""
+    limit, mode = limits.log_decrement, least_damped_of(record)
+    if limit is not None and mode is not None:
+        value = float(mode.log_decrement)
+        share = limit.least / value if value > 0.0 else math.inf
+        note = f"{mode.frequency / (2.0 * math.pi):.2f} Hz" + ("" if mode.stable else ", unstable")
+        yield held(limit, "log decrement", ("all", ""), RATIO, value, limit.least, share=share, note=note)
 
 
 def _stress(record: xr.Dataset, found: tuple[Phase, ...], limits: Limits) -> Iterator[Verdict]:

@@ -74,10 +74,7 @@ class SpecificLoad(_Limit):
 
 
 class LaminarFilm(_Limit):
-    """Up to ``factor sqrt(R/C)`` a film is laminar; density of the oil [kg/m3]."""
-
-    factor: Positive
-    oil_density: Positive
+    """Taylor's vortices, see `orchestrator.results.film_regime`."""
 
 
 class LogDecrement(_Limit):

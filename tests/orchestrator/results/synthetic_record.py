@@ -168,6 +168,9 @@ def record(
             "z": ("node", z),
             "depth": ("bearing", [depth] * len(NAMES)),
             "bearing_z": ("bearing", list(Z)),
+            "reynolds": ("bearing", [1950.0] * len(NAMES)),
+            "taylor_limit": ("bearing", [888.0] * len(NAMES)),
+            "laminar": ("bearing", [True] * len(NAMES)),
         },
         attrs=attributes,
     )

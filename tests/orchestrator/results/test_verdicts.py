@@ -99,9 +99,19 @@ def test_zones_lie_straight_between_speeds_and_end_at_the_nearest():
 
 def test_a_film_beyond_laminar_theory_is_the_models_limit_not_the_machines(verdicts):
     found = one(verdicts, "laminar film, Re", "all", "GEN-front")
-    assert found.value == pytest.approx(870 * 157.0796 * 0.4 * 8.6e-4 / 0.0242, rel=1e-6)
-    assert found.bound == pytest.approx(41.2 * math.sqrt(0.4 / 8.6e-4))
+    assert found.value == pytest.approx(1950.0)
+    assert found.bound == pytest.approx(888.0)
     assert (found.grade, found.note) == (Grade.CLOSE, "beyond laminar theory")
+
+
+def test_the_least_damped_mode_is_held_against_the_least_decrement(record):
+    growth, frequency = -0.5, 20.0
+    told = record.assign_attrs(least_damped_frequency=frequency, least_damped_growth=growth)
+    found = one(judge(told, load_limits()), "log decrement", "all", "")
+    assert found.value == pytest.approx(-growth / frequency, rel=1e-3)  # 2 pi zeta of a lightly damped mode
+    assert (found.place, found.grade, found.share) == ("shaft", Grade.BEYOND, pytest.approx(4.0, rel=1e-3))
+    shaky = record.assign_attrs(least_damped_frequency=frequency, least_damped_growth=0.1)
+    assert one(judge(shaky, load_limits()), "log decrement", "all", "").note == "20.00 Hz, unstable"
 
 
 def test_the_worst_of_each_limit_comes_first(verdicts):
