@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 
@@ -32,8 +33,8 @@ class Quantity:
         return f"{self.label} [{self.unit}]"
 
     def number(self, value: float) -> str:
-        """An SI value as shown, without unit."""
-        return f"{value * self.factor:{self.digits}}"
+        """An SI value as shown, without unit; a dash for none."""
+        return "-" if math.isnan(value) else f"{value * self.factor:{self.digits}}"
 
     def text(self, value: float) -> str:
         """An SI value as shown, with its unit."""

@@ -49,6 +49,10 @@ _EXTREMES = {
     "contact_force": ("contact_force_max", "N", "largest solid contact force"),
     "defect": ("defect_max", "N", "largest force that the coupling neglected"),
 }
+_OF_A_BORE = (
+    "least_gap", "centre_line_gap", "eccentricity", "sommerfeld", "least_gap_min", "centre_line_gap_min",
+    "least_gap_min_of_run", "centre_line_gap_min_of_run",
+)  # fmt: skip
 _SHAFT = {
     "vibration_amplitude_max": ("amplitude.max", "m", "largest vibration amplitude of the shaft"),
     "vibration_amplitude_position": ("amplitude.max_z", "m", "axial position of the largest amplitude"),
@@ -103,11 +107,15 @@ def make_record(
         **base_attributes(scenario, train, outcome, message),
         "fmus": "; ".join(f"{name} {guid}" for name, guid in provenance.items()),
     }
-    return xr.Dataset(
+    record = xr.Dataset(
         {name: (dims, np.array(values), attrs) for name, (dims, values, attrs) in variables.items()},
         coords={**_time(recorder.times.copy()), **train_coordinates(scenario, train)},
         attrs=attributes,
     )
+    for index, seat in enumerate(train.bearings):
+        for name in () if seat.has_film else _OF_A_BORE:
+            record[name][{"bearing": index}] = np.nan  # stiffness and damping have no gap
+    return record
 
 
 def empty_record(scenario: Scenario, train: Train, outcome: Outcome, message: str) -> xr.Dataset:

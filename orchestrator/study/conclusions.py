@@ -88,7 +88,7 @@ def _conclude(run: DepthRun, limits: Limits) -> Conclusion:
         touch = f"solid contact {share}, up to {shown(found.contact_largest, FORCE)}"
         return Conclusion(run.depth, Action.TRIP, f"{touch}; {gap}; {strained}")
     grounds = f"no contact; {gap} against {GAP.text(limits.gap)}; {strained}"
-    calm = bearing.least_gap_min >= limits.gap
+    calm = not bearing.least_gap_min < limits.gap  # a bearing without bore has none
     if limits.stress is not None:
         grounds += f" against {STRESS.text(limits.stress)}"
         calm = calm and stress <= limits.stress

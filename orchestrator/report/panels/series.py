@@ -48,7 +48,7 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
         traces, shown = [], layout(**event_lines(having), showlegend=False)
         for k, ((label, quantity, read), span) in enumerate(zip(table, rows(len(table)), strict=True)):
             values = [read(result, bearing) for result in having]
-            largest = max(float(np.nanmax(np.abs(v))) for v in values)
+            largest = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in values)
             unit = quantity.fitting(largest).fitting(largest)
             tail = str(k + 1) if k else ""
             below = k == len(table) - 1

@@ -110,12 +110,13 @@ class _Bearing:
         """In one phase: film, load, contact, vibration."""
         found = bearing_statistics(self.record, self.name, phase, contact_from=self.contact_from)
         place = phase.name, self.name
-        if (film := limits.least_film) is not None:
+        bore = not math.isnan(found.least_gap_min)  # else stiffness and damping are all that is known
+        if bore and (film := limits.least_film) is not None:
             bound = film.at(self.diameter, self.speed * self.diameter / 2.0)
             gap, when = found.least_gap_min, self._when("least_gap_min", phase, least=True)
             share = bound / gap if gap > 0.0 else math.inf
             yield held(film, "least film", place, GAP, gap, bound, share=share, instant=when)
-        if (load := limits.specific_load) is not None:
+        if bore and (load := limits.specific_load) is not None:
             lasting, short = found.force_mean / self.area, found.force_max / self.area
             when = self._when("force_magnitude_max", phase)
             yield held(load, "specific load, lasting", place, PRESSURE, lasting, load.steady)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from orchestrator.outcome import Outcome
+from orchestrator.results.quantities import GAP
 from orchestrator.results.validity import UNRESOLVED, unresolved
 from tests.faults import fault
 
@@ -58,3 +61,8 @@ def test_the_outcome_is_no_success():
 def test_a_first_instant_without_defect_counts_not():
     """Nothing was coupled yet: the record has NaN there."""
     assert not unresolved(_record([[np.nan, np.nan], [0.0, 0.0]]))
+
+
+def test_a_bearing_without_a_bore_has_no_gap_to_judge():
+    """Its least film is a dash, not a number and no reason to stop."""
+    assert GAP.number(math.nan) == "-" and GAP.text(math.nan) == f"- {GAP.unit}"
