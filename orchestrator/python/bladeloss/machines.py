@@ -63,8 +63,7 @@ def modes(
     """
     folder = fmu_folder() if fmus is None else Path(fmus)
     request = LinearRequest("modes", str(source), depth, None, folder, (), trust)
-    case = linear_case(request, Console(quiet=True), writes=False)
-    return mode_data(case, case.operating_point, case.train.speed, count)
+    return mode_data(linear_case(request, Console(quiet=True), writes=False), count)
 
 
 def bearing(depth: str = "v1", **parameters: float) -> Evaluate:

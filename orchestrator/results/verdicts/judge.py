@@ -168,7 +168,9 @@ class _Bearing:
 def _regimes(record: xr.Dataset, limits: Limits) -> Iterator[Verdict]:
     """Whether films that are taken as laminar are: the limit of a model, not of a machine."""
     limit = limits.laminar_film
-    for film in regimes(record) if limit is not None else ():
+    if limit is None:
+        return
+    for film in regimes(record):
         place = "all", film.bearing
         found = held(limit, "laminar film, Re", place, NUMBER, film.reynolds, film.taylor)
         if not film.laminar:
