@@ -13,8 +13,6 @@ from orchestrator.case.certify import certify
 from orchestrator.case.request import RunRequest
 from orchestrator.errors import NotWrittenError, outcome_of
 from orchestrator.outcome import Outcome
-from orchestrator.report.source import results_of
-from orchestrator.report.write import FILE, write_report
 from orchestrator.results.files import add, write_all
 from orchestrator.results.folder import FIGURES, partial_folder
 from orchestrator.results.result import Result
@@ -59,6 +57,9 @@ def conclude(
         try:
             write_all(result, summary, case.scenario, case.train, request.formats, place)
             if request.report and summary.phases:
+                from orchestrator.report.source import results_of  # loads much that a run does not need
+                from orchestrator.report.write import FILE, write_report
+
                 source = results_of([result.record])
                 add(place, "report", lambda fresh: write_report(source, fresh / FILE, request.bearing))
             written = True

@@ -86,9 +86,15 @@ def test_help_mentions_every_option_and_exit_status(here):
     assert "--train" in call("build", "--help").output
 
 
-def test_help_is_quick_because_nothing_heavy_is_imported():
-    heavy = ("numpy", "xarray", "matplotlib", "fmpy", "pydantic")
-    code = f"import sys, orchestrator.cli.main; print(sorted(set({heavy}) & set(sys.modules)))"
+@pytest.mark.parametrize(
+    ("module", "heavy"),
+    [
+        ("orchestrator.cli.main", ("numpy", "xarray", "matplotlib", "fmpy", "pydantic")),
+        ("orchestrator.commands.run", ("matplotlib", "scipy.signal", "scipy.stats")),  # figures, report
+    ],
+)
+def test_nothing_is_imported_before_it_is_needed(module, heavy):
+    code = f"import sys, {module}; print(sorted(set({heavy}) & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
 

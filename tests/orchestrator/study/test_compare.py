@@ -163,9 +163,12 @@ def here(compared, monkeypatch):
 def run(tmp_path, code, **request):
     """The command with other code for its runs; its status, what it said, and what it said of errors."""
     command = (sys.executable, "-c", code, "run")
+    coarse = {"step": 2e-4, "film": {"columns": 24, "rows": 4}}
     with (tmp_path / "said").open("w+") as said, (tmp_path / "errors").open("w+") as errors:
         consoles = Console(file=said, width=200), Console(file=errors, width=200)
-        status = compare_command.run(CompareRequest("short.toml", **request), *consoles, command=command)
+        status = compare_command.run(
+            CompareRequest("short.toml", coarse, **request), *consoles, command=command
+        )
         said.seek(0)
         errors.seek(0)
         return status, said.read(), errors.read()
@@ -200,6 +203,7 @@ def test_runs_that_left_nothing_give_the_status_and_no_folder(here, tmp_path):
 def test_depths_are_chosen(here, tmp_path):
     out = tmp_path / "out"
     arguments = ["compare", "short.toml", "--depth", "v3", "--depth", "v2", "--end", "0.045", "--no-figures"]
+    arguments += ["--columns", "24", "--rows", "4", "--step", "2e-4"]
     result = CliRunner().invoke(app, [*arguments, "--out", str(out)], env={"COLUMNS": "120"})
     assert result.exit_code == 0, result.output
     assert "V2, V3 beside one another" in result.output and "V3 to V2" in result.output
