@@ -102,12 +102,20 @@ def test_reynolds_condition():
 
 @pytest.mark.parametrize("depth", ["v1", "v2"])
 def test_force_is_continuously_differentiable_through_the_zeroing(depth):
-    """The stiffness varies smoothly while nodes cross zero pressure; nodal zeroing would make it jump."""
+    """Its change over a step is that of its slope, while nodes cross zero pressure.
+
+    The slope rises along the path to 1.38 times its mean, whatever the step; a stiffness that jumps where a
+    node is cut would change by as much in half the step.
+    """
     film = make_film(depth, plain(0.8))
-    path = np.linspace(0.45, 0.55, 400)
+    path = np.linspace(0.45, 0.55, 801)
     stiffness = np.array([respond(film, [e, 0.1, 0.05, 0.02]).stiffness[:2, :2].ravel() for e in path])
-    jumps = np.abs(np.diff(stiffness, axis=0)).max()
-    assert jumps < 3.0 * np.abs(stiffness[-1] - stiffness[0]).max() / path.size * 4.0
+    mean = np.abs(stiffness[-1] - stiffness[0]).max()
+    steepest, half = (
+        np.abs(np.diff(some, axis=0)).max() * (len(some) - 1) / mean for some in (stiffness[::2], stiffness)
+    )
+    assert half < 1.4
+    assert half == pytest.approx(steepest, rel=2e-3)
 
 
 @pytest.mark.parametrize("depth", ["v1", "v2"])

@@ -93,14 +93,11 @@ def test_every_coupling_converges_to_the_holistic_model(name, fmus, reference):
         assert result.outcome is Outcome.FINISHED, result.message
         errors.append(force_error(result.record["force"].values, reference))
     order = np.log2(errors[-2] / errors[-1])
-    if name == "linear-implicit":
-        assert order == pytest.approx(2.0, abs=0.25)
-        assert errors[-1] < 2e-4
-    elif name in STEPS:
-        assert order == pytest.approx(1.0, abs=0.15)
-    else:
-        assert order > 0.85
-    assert errors[-1] < 0.01
+    if name in STEPS:
+        assert order == pytest.approx(1.0, abs=0.03)
+    else:  # what is of first order in an iterated force does not show yet at these steps
+        assert order == pytest.approx(2.0, abs=0.1)
+    assert errors[-1] < (2e-4 if name in ("linear-implicit", "newton") else 2e-3)
 
 
 @pytest.mark.parametrize("name", STEPS)

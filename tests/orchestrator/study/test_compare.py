@@ -29,6 +29,7 @@ wheel = "wheel-2"
 unbalance = 0.05
 time = 0.04
 """
+DEPTHS = ("v1", "v2", "v3")
 RUN = ["record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
 FIGURES = [
     "all-bearings.png",
@@ -50,6 +51,7 @@ def compared(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
     (folder / "short.toml").write_text(SHORT)
     command = [sys.executable, "-P", "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
+    command += [word for depth in DEPTHS for word in ("--depth", depth)]
     command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out", "--fmus", "fmus"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -167,7 +169,7 @@ def run(tmp_path, code, **request):
     with (tmp_path / "said").open("w+") as said, (tmp_path / "errors").open("w+") as errors:
         consoles = Console(file=said, width=200), Console(file=errors, width=200)
         status = compare_command.run(
-            CompareRequest("short.toml", coarse, **request), *consoles, command=command
+            CompareRequest("short.toml", coarse, depths=DEPTHS, **request), *consoles, command=command
         )
         said.seek(0)
         errors.seek(0)
