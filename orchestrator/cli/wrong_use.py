@@ -11,6 +11,7 @@ import typer
 from typer.core import TyperGroup
 
 from orchestrator.outcome import INPUT_ERROR
+from rotor_fmu.train.wording import choice
 
 _WRONG_USE: type[Exception] = typer.BadParameter.__mro__[1]  # UsageError, which typer does not export
 _Choice = TypeVar("_Choice", bound=StrEnum)
@@ -66,8 +67,6 @@ def one_of(kind: type[_Choice], option: str) -> Callable[[str], _Choice]:
         try:
             return kind(given)
         except ValueError:
-            from rotor_fmu.train.wording import choice  # brings pydantic, which help does not wait for
-
             raise WrongChoice(f"{option} {given}: {choice(given, kind)}") from None
 
     return parse

@@ -6,11 +6,12 @@ import difflib
 import math
 import typing
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
-
-from pydantic import BaseModel, ValidationError
+from typing import TYPE_CHECKING, Any
 
 from rotor_fmu.train.toml_source import Problem
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel, ValidationError  # the command's help does not wait for it
 
 _ALLOWED = {
     "greater_than": "a number greater than {gt:g}",
@@ -118,6 +119,8 @@ def _walk(
     path: tuple[int | str, ...], raw: Any, model: type[BaseModel] | None
 ) -> tuple[str, type[BaseModel] | None]:
     """Readable prefix of a location and the model of the entry it leads to."""
+    from pydantic import BaseModel
+
     words: list[str] = []
     for step in path:
         try:
