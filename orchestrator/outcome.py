@@ -12,7 +12,7 @@ PROCESS_DIED = 8
 
 
 class Outcome(Enum):
-    """The end of a run: but for `FINISHED`, `UNRESOLVED` and `UNSTABLE` the record stops early.
+    """The end of a run: the record is whole for `FINISHED`, `UNRESOLVED`, `BEYOND_MODEL` and `UNSTABLE` only.
 
     Attributes
     ----------
@@ -67,8 +67,14 @@ class Outcome(Enum):
     UNRESOLVED = (
         "unresolved",
         10,
-        "The run reached its end, but the exchange of rotor and bearings was not resolved and its numbers "
-        "mean nothing; take a smaller step or the coupling linear-implicit.",
+        "The run reached its end, but its steps did not resolve the motion: forces may be off by more than a "
+        "tenth. Take a smaller step, a smaller tolerance, or the coupling linear-implicit.",
+    )
+    BEYOND_MODEL = (
+        "beyond-model",
+        15,
+        "The run reached its end, but the train left what its model describes; the message says when and "
+        "what. Later numbers are of no real machine: check unbalance and units.",
     )
     UNSTABLE = (
         "unstable",

@@ -13,8 +13,10 @@ from orchestrator.case.certify import certify
 from orchestrator.case.request import RunRequest
 from orchestrator.errors import NotWrittenError, outcome_of
 from orchestrator.outcome import Outcome
+from orchestrator.results.certificate import Certificate
 from orchestrator.results.files import add, write_all
 from orchestrator.results.folder import FIGURES, partial_folder
+from orchestrator.results.record import outcome_attributes
 from orchestrator.results.result import Result
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import SummaryTable
@@ -39,7 +41,7 @@ def conclude(
         Of the results; what did not finish goes beside it.
     results : tuple of Result
         Of the run, and of the same run at half the step or None: with it a certificate goes into summary
-        and record, and where it failed that is the exit status.
+        and record. A run that it does not certify is unresolved; where it failed that is the exit status.
     console, errors : rich.console.Console
         For output and for what went wrong.
     """
@@ -48,8 +50,8 @@ def conclude(
     summary = summarise(result, analysed=request.bearing)
     if half is not None:
         certificate = certify(summary, summarise(half, analysed=request.bearing))
-        summary = replace(summary, certificate=certificate)
-        result = replace(result, record=result.record.assign_attrs(certificate.attributes()))
+        result = _certified(result, half, certificate)
+        summary = replace(summarise(result, analysed=request.bearing), certificate=certificate)
     outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
     place = folder if outcome.ok else partial_folder(folder)
     written = False
@@ -71,6 +73,9 @@ def conclude(
             outcome = outcome_of(error)
             message = f"the run had ended, and its data are complete in {place}; its figures are not drawn"
     console.print(SummaryTable(summary))  # whatever goes wrong from here on, the results are there
+    asked, used = case.scenario.reduction, result.record.attrs.get("reduction_used")
+    if used not in (None, asked):
+        console.print(f"Reduction: {used}", highlight=False, soft_wrap=True)
     if written:
         kind = "Results" if result.outcome.ok else "Partial results"
         console.print(f"\n{kind} in {place}", highlight=False, soft_wrap=True)
@@ -90,3 +95,13 @@ def completed(case: Case, result: Result) -> Result:
     """The result with the limits of its machine in the record."""
     limits = to_text(load_limits(own_file(case.scenario)))
     return replace(result, record=result.record.assign_attrs({ATTRIBUTE: limits}))
+
+
+def _certified(result: Result, half: Result, certificate: Certificate) -> Result:
+    """Return the result with its certificate, as unresolved where a finished half step contradicts it."""
+    record = result.record.assign_attrs(certificate.attributes())
+    if not (result.outcome.ok and half.outcome.ok and certificate.doubt):
+        return replace(result, record=record)
+    outcome, message = Outcome.UNRESOLVED, f"the certificate: {certificate.doubt}"
+    record = record.assign_attrs(outcome_attributes(outcome, message))
+    return replace(result, record=record, outcome=outcome, message=message)

@@ -34,7 +34,7 @@ from orchestrator.results.least_damped import least_damped_attributes
 from orchestrator.results.ledger import with_ledger
 from orchestrator.results.record import empty_record, make_record, outcome_attributes
 from orchestrator.results.result import Result, Stopwatch, Timing
-from orchestrator.results.validity import grown, unresolved
+from orchestrator.results.validity import judge
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of
@@ -226,11 +226,8 @@ class _TimeLoop:
         timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
         record = self._record(self._recorder, outcome, message)
-        failed = Outcome.UNRESOLVED, unresolved(record) if outcome.ok else ""
-        if outcome.ok and not failed[1]:
-            failed = Outcome.UNSTABLE, grown(record)
-        if failed[1]:
-            outcome, message = failed
+        if outcome.ok:
+            outcome, message = judge(record, self._case.train)
             record = record.assign_attrs(outcome_attributes(outcome, message))
         evaluations = self._system.bearing_group.evaluations
         record = record.assign_attrs(end.counts.attributes(evaluations))

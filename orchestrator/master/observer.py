@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from orchestrator.master.coupling import Advance
 from orchestrator.master.stepping import Stepper
-from orchestrator.master.system import Array
 
 
 class Observer:
@@ -15,8 +15,8 @@ class Observer:
     def begin(self, stepper: Stepper) -> None:
         """Take the start of a run, the end of macro step 0; not told to a run that goes on."""
 
-    def watch(self, start: float, end: float, defect: Array) -> None:
-        """Take the end of an accepted step with its defect (bearings, 4)."""
+    def watch(self, start: float, end: float, advance: Advance) -> None:
+        """Take the end of an accepted step with what the coupling said of it."""
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
         """Take the end of a macro step of this number."""

@@ -1,9 +1,10 @@
 """Step control: carries a system over an interval in one step, or in halves of halves of it.
 
 Steps are the interval divided by powers of two, so that units which keep what depends on the
-step size keep little.  A step whose defect exceeds the tolerance, whose iteration does not
+step size keep little.  A step whose error exceeds the tolerance, whose iteration does not
 converge, or that a unit discards is taken back and halved; steps grow again when the film is
-calm, in pairs, so that they always end on the interval's end.
+calm, in pairs, so that they always end on the interval's end.  The error of a step is the larger of
+its defect, which sees the interface, and of what comes of its length (`step_error`).
 """
 
 from __future__ import annotations
@@ -18,14 +19,19 @@ from numpy.typing import ArrayLike
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master.coupling import Advance, Coupling, NotConverged
-from orchestrator.master.system import Array, System
+from orchestrator.master.step_error import error_of_step
+from orchestrator.master.system import System
 from orchestrator.outcome import Outcome
 
 DEEPEST = 10
 """Halvings of a macro step at most; the shortest step is 1/1024 of it."""
 
 CALM = 1.0 / 8.0
-"""Share of the tolerance below which the defect, of second order in the step, allows twice the step."""
+"""Share of the tolerance below which the error, of second order in the step, allows twice the step."""
+
+OF_LENGTH = 0.4
+"""Weight of the error from a step's length against its defect; with it equal tolerances give equal errors
+whether the defect decides (linear-implicit) or the length does (newton)."""
 
 EASY = 3
 """Passes of an iterating scheme up to which twice the step is tried."""
@@ -44,8 +50,8 @@ class StepCounts:
         Passes through the units in all accepted steps.
     shortest : float
         Shortest accepted step in s.
-    largest_relative_defect : float
-        Over all accepted steps, see `System.relative`.
+    largest_relative_defect, largest_relative_error : float
+        Over all accepted steps, see `System.relative`; the error is that which the tolerance bounds.
     """
 
     accepted: int = 0
@@ -54,6 +60,7 @@ class StepCounts:
     iterations: int = 0
     shortest: float = math.inf
     largest_relative_defect: float = 0.0
+    largest_relative_error: float = 0.0
 
     @property
     def taken_back(self) -> int:
@@ -70,6 +77,7 @@ class StepCounts:
             "evaluations": evaluations,
             "shortest_step": self.shortest if self.accepted else 0.0,
             "largest_relative_defect": self.largest_relative_defect,
+            "largest_relative_error": self.largest_relative_error,
         }
 
 
@@ -103,8 +111,7 @@ class Stepper:
     scheme : Coupling
         How it is carried over a step.
     tolerance : float or None
-        Largest relative defect of a step of a scheme that does not iterate; None accepts every step
-        that the units accept.
+        Largest relative error of a step; None accepts every step that the units accept.
     on_step : callable
         Called after each accepted step with its start, its end and its `Advance`.
 
@@ -128,7 +135,8 @@ class Stepper:
         if tolerance is not None or scheme.iterates:
             system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
         self._system, self.scheme, self._on_step = system, scheme, on_step
-        self._tolerance = None if scheme.iterates else tolerance
+        self._tolerance = tolerance
+        self._before = system.journals.copy()
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
         self.level = 0
@@ -159,10 +167,11 @@ class Stepper:
         """Take a step; whether twice of it would do, or None if it was taken back."""
         if self._marks:
             self._system.rollback.mark()
+        self._before[:] = self._system.journals
         try:
-            advance = self.scheme.advance(self._system, time, step)
-            size = self._system.relative(advance.defect)
-            problem = self._problem(advance.defect, size, step)
+            advance = self._advance(time, step)
+            sizes = self._sizes(advance)
+            problem = self._problem(advance, sizes, step)
         except NotConverged as error:
             problem = ToleranceMissed(f"{error}, with a step of {step:.3g} s")
         except UnitError as error:
@@ -180,24 +189,39 @@ class Stepper:
             if self.level == DEEPEST or (self._tolerance is None and not self.scheme.iterates):
                 raise problem
             return None
-        self._count(advance, step, size)
+        self._count(advance, step, sizes)
         self._on_step(time, end, advance)
-        if self.scheme.iterates:
-            return advance.iterations <= EASY
-        return self._tolerance is None or size <= CALM * self._tolerance
+        if self.scheme.iterates and advance.iterations > EASY:
+            return False
+        return self._tolerance is None or max(sizes) <= CALM * self._tolerance
 
-    def _problem(self, defect: Array, size: float, step: float) -> StepFailure | None:
+    def _advance(self, time: float, step: float) -> Advance:
+        """Carry the system over a step, and estimate its error."""
         system = self._system
-        if not (math.isfinite(size) and math.isfinite(system.journals.sum())):
+        advance = self.scheme.advance(system, time, step)
+        return advance._replace(of_length=error_of_step(self._before, system.journals, system.squares, step))
+
+    def _sizes(self, advance: Advance) -> tuple[float, float]:
+        """Relative defect of a step, and weighted relative error from its length."""
+        assert advance.of_length is not None
+        of_length = OF_LENGTH * self._system.relative(advance.of_length)
+        return self._system.relative(advance.defect), of_length
+
+    def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
+        system = self._system
+        if not (math.isfinite(sum(sizes)) and math.isfinite(system.journals.sum())):
             motion = np.column_stack([system.journals, system.forces])
             return NotFinite(
                 "the motion of the journal is not finite after the step",
                 self._name(np.count_nonzero(~np.isfinite(motion), axis=1)),
             )
-        if self._tolerance is not None and size > self._tolerance:
+        if self._tolerance is not None and max(sizes) > self._tolerance:
+            worst = advance.defect if sizes[0] >= sizes[1] else advance.of_length
+            assert worst is not None
             return ToleranceMissed(
-                f"relative defect {size:.3g} with a step of {step:.3g} s, allowed is {self._tolerance:.3g}",
-                self._name(np.max(np.abs(defect) / system.scale(), axis=1)),
+                f"relative defect {sizes[0]:.3g}, and {sizes[1]:.3g} from the length of the step, "
+                f"{step:.3g} s; allowed is {self._tolerance:.3g}",
+                self._name(np.max(np.abs(worst) / system.scale(), axis=1)),
             )
         return None
 
@@ -205,9 +229,10 @@ class Stepper:
         """Name of the bearing of the largest value."""
         return self._system.bearings[int(np.argmax(badness))].name
 
-    def _count(self, advance: Advance, step: float, size: float) -> None:
+    def _count(self, advance: Advance, step: float, sizes: tuple[float, float]) -> None:
         counts = self.counts
         counts.accepted += 1
         counts.iterations += advance.iterations
         counts.shortest = min(counts.shortest, step)
-        counts.largest_relative_defect = max(counts.largest_relative_defect, size)
+        counts.largest_relative_defect = max(counts.largest_relative_defect, sizes[0])
+        counts.largest_relative_error = max(counts.largest_relative_error, *sizes)

@@ -107,9 +107,14 @@ class System:
         return self.responses[:, _FORCE]
 
     @property
+    def squares(self) -> Array:
+        """Stiffness K and damping C that the bearings returned last (bearings, 2, 4, 4)."""
+        return self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
+
+    @property
     def tangents(self) -> Array:
         """Stiffness and damping [K C] that the bearings returned last (bearings, 4, 8), a copy."""
-        square = self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
+        square = self.squares
         return np.concatenate([square[:, 0], square[:, 1]], axis=2)
 
     def set_scale(self, load: float, levers: Iterable[float]) -> None:

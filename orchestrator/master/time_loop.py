@@ -36,7 +36,7 @@ class Course:
     end, step : float
         End time and macro step in s. The last step is shortened to end on the end time exactly.
     tolerance : float or None
-        Largest relative defect of a step, see `Stepper`.
+        Largest relative error of a step, see `Stepper`.
     events : tuple of float
         Instants on which a step ends besides, in s, ascending.
     """
@@ -139,7 +139,7 @@ def run(
         watched = perf_counter()
         time = end
         for observer in observers:
-            observer.watch(start, end, advance.defect)
+            observer.watch(start, end, advance)
         recording += perf_counter() - watched
 
     def stop(step: int | None) -> None:

@@ -29,7 +29,7 @@ from orchestrator.observers.checkpoint_meta import Meta, problem_of
 Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
-_VERSION = 1
+_VERSION = 2
 
 
 class Keeper(Protocol):

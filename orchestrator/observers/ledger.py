@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from fmus import port
 from orchestrator.fmi.block import Block
+from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
@@ -105,7 +106,7 @@ class Ledger(Observer):
         self._block.get()
         self._first[:] = self._rotor
 
-    def watch(self, start: float, end: float, defect: Array) -> None:
+    def watch(self, start: float, end: float, advance: Advance) -> None:
         """Enter an accepted step."""
         before, now, step = self._before, self._values(), end - start
         moved, turned = now[0][:, :4] - before[0][:, :4], now[0][:, 4:] - before[0][:, 4:]

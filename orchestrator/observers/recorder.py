@@ -15,17 +15,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.fmi.block import Block
+from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 
 Array = NDArray[np.float64]
 
-EXTREMES = ("force_magnitude", "moment_magnitude", "least_gap", "centre_line_gap", "contact_force", "defect")
+EXTREMES = (
+    "force_magnitude",
+    "moment_magnitude",
+    "least_gap",
+    "centre_line_gap",
+    "contact_force",
+    "defect",
+    "step_error",
+)
 """Quantities whose extremes are kept; the gaps' least, the others' largest."""
 
-_FORCE, _MOMENT, _DEFECT = (
-    EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect")
+_FORCE, _MOMENT, _DEFECT, _STEP_ERROR = (
+    EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect", "step_error")
 )
 _SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("contact_force") + 1)
 _OUTPUTS = [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force")]
@@ -58,7 +67,7 @@ class Recorder(Observer):
     ----------
     size : int
         Records so far.
-    peaks, peak_times : ndarray (bearings, 6)
+    peaks, peak_times : ndarray (bearings, 7)
         Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
     """
 
@@ -86,9 +95,9 @@ class Recorder(Observer):
         self._note(0.0, None)
         self.record(0, 0.0, stepper)
 
-    def watch(self, start: float, end: float, defect: Array) -> None:
+    def watch(self, start: float, end: float, advance: Advance) -> None:
         """Note the extremes of the system as it stands after a step."""
-        self._note(end, defect)
+        self._note(end, advance)
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
         """Keep a record if one is due."""
@@ -100,16 +109,20 @@ class Recorder(Observer):
         if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
             self._keep(time)
 
-    def _note(self, time: float, defect: Array | None) -> None:
+    def _note(self, time: float, advance: Advance | None) -> None:
         now, system = self._now, self._system
         forces = system.forces
         np.hypot(forces[:, 0], forces[:, 1], out=now[:, _FORCE])
         np.hypot(forces[:, 2], forces[:, 3], out=now[:, _MOMENT])
         np.multiply(system.responses[:, _OUTPUTS], _SIGN[_SCALARS], out=now[:, _SCALARS])
-        if defect is None:
-            now[:, _DEFECT] = 0.0
-        else:
-            np.hypot(defect[:, 0], defect[:, 1], out=now[:, _DEFECT])
+        for column, error in (
+            (_DEFECT, advance and advance.defect),
+            (_STEP_ERROR, advance and advance.of_length),
+        ):
+            if error is None:
+                now[:, column] = 0.0
+            else:
+                np.hypot(error[:, 0], error[:, 1], out=now[:, column])
         np.maximum(self._since, now, out=self._since)
         higher = now > self._peaks
         if higher.any():
@@ -161,7 +174,7 @@ class Recorder(Observer):
 
     @property
     def peaks(self) -> Array:
-        """Extremes of the whole run, (bearings, 6)."""
+        """Extremes of the whole run, (bearings, 7)."""
         return self._peaks * _SIGN
 
     def shaft(self, name: str) -> Array:

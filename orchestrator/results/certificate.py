@@ -8,6 +8,9 @@ from typing import Any
 CERTIFIED = ("force_mean", "force_max", "moment_max", "least_gap_min", "amplitude_max", "stress_max")
 """Quantities whose largest changes the summary's text and the record name; the JSON holds all."""
 
+ALLOWED = 0.1
+"""Change at half the step, of `CERTIFIED` against `Difference.scale`, up to which a run is certified."""
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -23,6 +26,8 @@ class Difference:
         The first less the second.
     relative : float or None
         Against the larger of the two in size.
+    scale : float
+        What a change of this number counts by: the larger of the two, or more where both are small.
     """
 
     quantity: str
@@ -32,6 +37,12 @@ class Difference:
     at_half_step: float | None
     difference: float | None
     relative: float | None
+    scale: float = 0.0
+
+    @property
+    def counted(self) -> float:
+        """Size of the difference against `scale`."""
+        return abs(self.difference or 0.0) / self.scale if self.scale > 0.0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -51,6 +62,20 @@ class Certificate:
     outcome: str
     step: float
     differences: tuple[Difference, ...]
+
+    @property
+    def doubt(self) -> str:
+        """Empty, or the change by which a run is not certified."""
+        certified = [d for d in self.differences if d.quantity in CERTIFIED]
+        worst = max(certified, key=lambda d: d.counted, default=None)
+        if worst is None or worst.counted <= ALLOWED:
+            return ""
+        where = " ".join(part for part in (worst.bearing, worst.phase) if part)
+        return (
+            f"at half the step {worst.quantity.replace('_', ' ')} ({where}) is {worst.at_half_step:.4g} "
+            f"instead of {worst.value:.4g}, a change of {100 * worst.counted:.3g} %; allowed are "
+            f"{100 * ALLOWED:g} %"
+        )
 
     def attributes(self) -> dict[str, Any]:
         """Attributes of the record: outcome and step, and the largest relative changes."""

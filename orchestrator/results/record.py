@@ -48,6 +48,11 @@ _EXTREMES = {
     "centre_line_gap": ("centre_line_gap_min", "m", "least gap on the centre line"),
     "contact_force": ("contact_force_max", "N", "largest solid contact force"),
     "defect": ("defect_max", "N", "largest force that the coupling neglected"),
+    "step_error": (
+        "step_error_max",
+        "N",
+        "largest error of the force from the step's length, estimated",
+    ),
 }
 _OF_A_BORE = (
     "least_gap", "centre_line_gap", "eccentricity", "sommerfeld", "least_gap_min", "centre_line_gap_min",

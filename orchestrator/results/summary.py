@@ -27,6 +27,7 @@ from orchestrator.results.statistics import (
     defect_statistics,
     shaft_statistics,
 )
+from orchestrator.results.validity import ErrorEstimate, error_estimate
 from orchestrator.results.windows import Phase, instants, phases
 
 if TYPE_CHECKING:
@@ -92,7 +93,9 @@ class RunSummary:
     peak_memory : int
         Largest resident memory of the process so far [B].
     defect : DefectStatistics or None
-        Error estimate of the coupling.
+        What the law of the bearings missed at the ends of steps.
+    error : ErrorEstimate or None
+        Estimated error of the bearing forces, from defect and length of the steps.
     ledger : LedgerSummary or None
         Energy ledger, if it was kept.
     analysed : str or None
@@ -129,6 +132,7 @@ class RunSummary:
     timing: Timing
     peak_memory: int
     defect: DefectStatistics | None
+    error: ErrorEstimate | None
     ledger: LedgerSummary | None
     analysed: str | None
     phases: tuple[Phase, ...]
@@ -221,6 +225,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         timing=result.timing,
         peak_memory=peak_memory(),
         defect=defect_statistics(record),
+        error=error_estimate(record),
         ledger=ledger_of(record),
         analysed=analysed_bearing(record, analysed) if found else None,
         phases=found,

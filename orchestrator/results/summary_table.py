@@ -18,6 +18,7 @@ from orchestrator.results.ledger import LedgerSummary
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.results.summary import RunSummary
+from orchestrator.results.validity import ALLOWED, PROMISED, ErrorEstimate
 from orchestrator.results.windows import Phase
 
 TEXT_WIDTH = 110
@@ -73,6 +74,15 @@ def _steps_text(summary: RunSummary) -> str:
     if counts.iterations > counts.accepted:
         text += f", {counts.iterations / counts.accepted:.2f} iterations a step"
     return text
+
+
+def _error_text(error: ErrorEstimate) -> str:
+    """The estimate in one sentence, with what is allowed and what that promises."""
+    return (
+        f"estimated {100 * error.largest:.2g} % of the largest force at {error.bearing}, "
+        f"{error.time:.4f} s; {100 * error.rms:.2g} % RMS; up to {100 * ALLOWED:g} % no force is off by "
+        f"more than {100 * PROMISED:g} %"
+    )
 
 
 def _ledger_text(ledger: LedgerSummary) -> str:
@@ -142,6 +152,8 @@ def _facts(summary: RunSummary) -> Table:
                 f"{share} at {summary.defect.bearing}, {summary.defect.time:.4f} s",
             )
         )
+    if summary.error is not None:
+        rows.append(("error", _error_text(summary.error)))
     if summary.ledger is not None:
         rows.append(("energy", _ledger_text(summary.ledger)))
     if summary.certificate is not None:

@@ -25,7 +25,7 @@ STEPS_PER_REVOLUTION = 10
 MOST_STEPS = 1e9
 """Of a run: a day for a train whose step takes a tenth of a millisecond."""
 
-_BYTES_AT_BEARING = 8 * 30
+_BYTES_AT_BEARING = 8 * 31
 _BYTES_AT_NODE = 4 * 4
 """Of one sample of the record, see `orchestrator.observers.recorder`."""
 

@@ -166,10 +166,11 @@ class Scenario(Model):
     step : float
         Macro step in s; the longest one where a tolerance is given.
     tolerance : float or None
-        Largest relative defect of a step: the wrench of a bearing less the one that the rotor was moved
-        by, against the larger of the mean static load and the bearing's force (moments: times its width).
-        A step that misses it is taken back and halved, or iterated until it does by the couplings newton
-        and iqn-ils (by themselves they go to 1e-6). None: every step counts. It belongs to the step and
+        Largest relative error of a step: of the defect, the wrench of a bearing less the one that the rotor
+        was moved by, and of what comes of the step's length, against the larger of the mean static load and
+        the bearing's force (moments: times its width). A step that misses it is taken back and halved; the
+        couplings newton and iqn-ils iterate the defect away as far, else to 1e-6. None: every step counts.
+        It belongs to the step and
         the coupling beside it: where an option replaces one of them, it must be given anew.
     ledger : bool
         Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created

@@ -138,11 +138,12 @@ class ShoulderRow(_Entry):
 
 
 class MaterialEntry(_Entry):
-    """[materials.NAME]: E [Pa], nu, rho [kg/m3]."""
+    """[materials.NAME]: E [Pa], nu, rho [kg/m3]; yield strength [Pa], which runs compare the stress with."""
 
     youngs_modulus: float = Field(gt=1e8, lt=1e13, description="Pa; did you give MPa?")
     poisson_ratio: float = Field(ge=0.0, lt=0.5)
     density: float = Field(ge=0.0, lt=3e4, description="kg/m3; did you give t/m3?")
+    yield_strength: float | None = Field(None, gt=1e7, lt=1e11, description="Pa; did you give MPa?")
 
     @field_validator("density")
     @classmethod

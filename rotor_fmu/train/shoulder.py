@@ -27,17 +27,25 @@ class Material:
         nu.
     density : float
         rho [kg/m3]; 0 for one without mass.
+    yield_strength : float or None
+        Stress from which it yields [Pa]; None: unknown.
     """
 
     name: str
     youngs_modulus: float
     poisson_ratio: float
     density: float
+    yield_strength: float | None = None
 
     @property
     def shear_modulus(self) -> float:
         """G = E / (2 (1 + nu)) [Pa]."""
         return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+
+    @property
+    def properties(self) -> dict[str, str | float]:
+        """What is known of it, by name."""
+        return {key: value for key, value in asdict(self).items() if value is not None}
 
 
 @dataclass(frozen=True)

@@ -263,7 +263,7 @@ class Train:
     def to_json(self) -> str:
         """Write as JSON; floats survive the round trip bit by bit."""
         data = {key: value for key, value in asdict(self).items() if key != "shoulders"}
-        data["materials"] = [asdict(material) for material in self.materials]
+        data["materials"] = [material.properties for material in self.materials]
         data["shoulders"] = [shoulder.to_data() for shoulder in self.shoulders]
         return json.dumps(data, allow_nan=False)
 

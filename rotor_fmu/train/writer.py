@@ -86,7 +86,7 @@ def train_toml(train: Train) -> str:
     if train.gravity != Train.gravity:
         content["gravity"] = list(train.gravity)
     for material in train.materials:
-        properties = asdict(material)
+        properties = material.properties
         content["materials"][properties.pop("name")] = properties
     for part in _parts(train):
         content.setdefault(_kind(part), []).append(dict(_entries(train, part)))

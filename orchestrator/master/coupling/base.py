@@ -25,10 +25,14 @@ class Advance(NamedTuple):
         At the end of the step, what the units' inputs lacked of the outputs that they are connected to.
         Of a train (bearings, 4): wrench of the bearings less the one that the rotor was moved by, the
         error estimate of the coupling. Overwritten by the next step.
+    of_length : ndarray or None
+        Error of the bearing wrenches that comes of the length of the step (bearings, 4), see
+        `orchestrator.master.step_error`; the step control puts it in.
     """
 
     iterations: int
     defect: NDArray[np.float64]
+    of_length: NDArray[np.float64] | None = None
 
 
 class NotConverged(OrchestratorError):

@@ -58,6 +58,66 @@ def test_a_run_equals_itself(fmus, tmp_path):
     assert all(not d.difference for d in certify(summary, summary).differences)
 
 
+def certified(fmus, tmp_path, **changes):
+    """Certificate of a run that half the step would change by these factors."""
+    summary = summarise(simulate(toy_scenario(tmp_path, event=BLADE), fmus))
+    rows = [
+        replace(row, **{name: factor * getattr(row, name) for name, factor in changes.items()})
+        for row in summary.bearings
+    ]
+    return certify(summary, replace(summary, bearings=tuple(rows)))
+
+
+def test_a_change_of_more_than_a_tenth_is_a_doubt(fmus, tmp_path):
+    assert certified(fmus, tmp_path).doubt == ""
+    assert certified(fmus, tmp_path, force_max=1.10).doubt == ""
+    doubt = certified(fmus, tmp_path, force_max=1.12).doubt
+    assert (
+        doubt.startswith("at half the step force max (") and "a change of 10.7 %; allowed are 10 %" in doubt
+    )
+
+
+def test_what_is_next_to_nothing_may_double(fmus, tmp_path):
+    """A least gap counts by the mean gap, a small moment by the largest of the run."""
+    summary = summarise(simulate(toy_scenario(tmp_path, event=BLADE), fmus))
+    touching = replace(summary.bearings[0], least_gap_min=1e-7)
+    pair = [
+        replace(summary, bearings=(replace(touching, least_gap_min=gap), *summary.bearings[1:]))
+        for gap in (1e-7, 2e-7)
+    ]
+    assert certify(*pair).doubt == ""
+    apart = replace(touching, least_gap_min=-0.2 * touching.least_gap_mean)
+    assert (
+        "least gap min" in certify(pair[0], replace(summary, bearings=(apart, *summary.bearings[1:]))).doubt
+    )
+
+
+@fault(
+    "process",
+    "half the step changes what a run says by more than a tenth",
+    "unresolved, exit 10; quantity, bearing, both values; in summary and record, too",
+    guard="orchestrator.case.conclude:_certified",
+)
+def test_a_run_that_half_the_step_contradicts_is_no_success(fmus, tmp_path, monkeypatch):
+
+    def harder_at_half(case, *arguments):
+        result = execute(case, *arguments)
+        if case.scenario.step < 1e-3:
+            harder = result.record.assign(force_magnitude_max=1.64 * result.record["force_magnitude_max"])
+            result = replace(result, record=harder)
+        return result
+
+    monkeypatch.setattr("orchestrator.commands.run.execute", harder_at_half)
+    said = StringIO()
+    request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)
+    with folder_case(toy_scenario(tmp_path, event=BLADE), train_of(toy_scenario(tmp_path)), fmus) as case:
+        assert run_case(case, request, Console(quiet=True), Console(file=said, width=200)) == 10
+    assert "unresolved (exit status 10): the certificate: at half the step force max" in said.getvalue()
+    left = tmp_path / "out-partial"
+    assert json.loads((left / "summary.json").read_text())["exit_status"] == 10
+    assert read_record(left).attrs["status"] == "unresolved"
+
+
 def test_the_command_writes_the_certificate(fmus, tmp_path):
     scenario = toy_scenario(tmp_path, event=BLADE, end=0.1, ledger=True)
     out, console = tmp_path / "out", Console(quiet=True)

@@ -30,7 +30,7 @@ def test_the_work_of_a_spring_is_what_its_potential_loses(store, toy_fmus):
     """Without damping W = k/2 (q0^2 - q1^2); a linear law leaves the coupling nothing to create."""
     system = released(store, toy_fmus, stiffness=1e6, damping=0.0)
     ledger = Ledger(system)
-    stepper = Stepper(system, LinearImplicit(), None, lambda t, end, a: ledger.watch(t, end, a.defect))
+    stepper = Stepper(system, LinearImplicit(), None, lambda t, end, a: ledger.watch(t, end, a))
     ledger.begin(stepper)
     for k in range(40):
         stepper.cross(k * 2e-4, (k + 1) * 2e-4, 2e-4)

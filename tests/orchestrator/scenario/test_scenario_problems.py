@@ -150,7 +150,7 @@ def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     scenario = parse_scenario(TEXT, tmp_path, "my.toml")
     train = load_train("small")
     size = record_size(scenario, train)
-    assert size == pytest.approx(400 * (2 * 240 + train.nodes * 16))
+    assert size == pytest.approx(400 * (2 * 248 + train.nodes * 16))
     monkeypatch.setattr("orchestrator.scenario.problems._memory", lambda: size / 3)
     with pytest.raises(ScenarioError) as info:
         parse_scenario(TEXT, tmp_path, "my.toml")
