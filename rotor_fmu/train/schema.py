@@ -80,11 +80,16 @@ class _Entry(BaseModel):
         assert info.field_name is not None
         unit = unit_of(cls, info.field_name)
         try:
-            if unit and isinstance(value, list):
-                return [in_si(item, unit) if isinstance(item, str) else item for item in value]
-            return in_si(value, unit) if unit and isinstance(value, str) else value
+            return _converted(value, unit) if unit else value
         except ValueError as error:
             raise PydanticCustomError("unit", "{allowed}", {"allowed": str(error)}) from None
+
+
+def _converted(value: Any, unit: str) -> Any:
+    """A value with the texts in it, also in lists of lists, as numbers in a unit."""
+    if isinstance(value, list):
+        return [_converted(item, unit) for item in value]
+    return in_si(value, unit) if isinstance(value, str) else value
 
 
 def unit_of(model: type[BaseModel], name: str) -> str:
@@ -212,8 +217,8 @@ class BearingEntry(Placed):
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)
     height: float | None = within(-0.1, 0.1, _LENGTH, None)
     sleeve: bool = False
-    stiffness: _Matrix = None
-    damping: _Matrix = None
+    stiffness: _Matrix = Field(None, description="N/m")
+    damping: _Matrix = Field(None, description="N s/m")
     table: str | None = None
     _has_film: bool = PrivateAttr(True)
 

@@ -68,3 +68,11 @@ def test_a_wrong_unit_is_named_with_its_line(folder):
         "line 45: wheel 'wheel-1': mass = '1500 mm'; allowed is a number in kg or in a unit of the same "
         "kind, as kg"
     )
+
+
+@pytest.mark.parametrize("text", ['"50 kN/mm"', '["50 N/um", 5e7]', '[["50 MN/m", 0], [0.0, "5e4 N/mm"]]'])
+def test_units_of_coefficients(folder, text):
+    edit(folder, "train.toml", ("clearance = 0.00022", f"stiffness = {text}\nclearance = 0.00022"))
+    given = load_train(folder).bearings[0]
+    edit(folder, "train.toml", (f"stiffness = {text}", "stiffness = 5e7"))
+    assert given.coefficients and given == load_train(folder).bearings[0]
