@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from enum import StrEnum
 from inspect import Signature, signature
@@ -12,7 +13,15 @@ import typer
 
 from bearing_fmu import depths
 from orchestrator.cli.steadfast import steadfast_output
-from orchestrator.cli.wrong_use import one_of
+from orchestrator.cli.wrong_use import WrongChoice, one_of
+
+
+def finite(context: typer.Context, option: typer.CallbackParam, value: float | None) -> float | None:
+    """Refuse a number of seconds that is infinite or none at all."""
+    if value is not None and not math.isfinite(value):
+        raise WrongChoice(f"{option.opts[0]} {value}: allowed is a finite number")
+    return value
+
 
 Trust = Annotated[
     bool,
@@ -21,7 +30,12 @@ Trust = Annotated[
 
 Budget = Annotated[
     float,
-    typer.Option(min=0.0, metavar="SECONDS", help="Give up a unit that takes longer for a call; 0: never."),
+    typer.Option(
+        min=0.0,
+        metavar="SECONDS",
+        callback=finite,
+        help="Give up a unit that takes longer for a call; 0: never.",
+    ),
 ]
 
 Fmus = Annotated[

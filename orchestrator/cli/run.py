@@ -19,6 +19,7 @@ from orchestrator.cli.options import (
     Reduction,
     Trust,
     command_of,
+    finite,
 )
 from orchestrator.cli.wrong_use import WrongChoice, one_of
 from orchestrator.outcome import status_lines
@@ -101,7 +102,12 @@ class RunOptions:
     ] = None
     checkpoint: Annotated[
         float | None,
-        typer.Option(min=1e-6, metavar="EVERY", help="Simulated seconds between checkpoints; see resume."),
+        typer.Option(
+            min=1e-6,
+            metavar="EVERY",
+            callback=finite,
+            help="Simulated seconds between checkpoints; see resume.",
+        ),
     ] = None
     certify: Annotated[
         bool, typer.Option("--certify", help="Run again at half the step; keep the energy ledger.")
@@ -176,5 +182,7 @@ def _assignments(items: list[str]) -> dict[str, str]:
         if not (name and equals and (fmu or depth in list(Depth))):
             allowed = choice(depth, (*Depth, "the path of an .fmu file"))
             raise WrongChoice(f"--depth-at {item}: not NAME=DEPTH; of depths {allowed}")
+        if name in found:
+            raise WrongChoice(f"--depth-at {item}: {name} has been given {found[name]}; allowed is one depth")
         found[name] = str(Path(depth).absolute()) if fmu else depth
     return found

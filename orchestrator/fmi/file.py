@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import tempfile
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +15,7 @@ from types import TracebackType
 from typing import Any, Protocol
 
 import fmpy
+from filelock import FileLock, Timeout
 
 from fmus.build.promises import promises_of
 from orchestrator.errors import FmuError
@@ -23,6 +25,7 @@ from orchestrator.fmi.xml import XmlError, read_xml
 # Others than these, and of Windows \ and :, make hosts of Python FMUs trip.
 _SAFE_PATH = re.compile(r"[A-Za-z0-9_./~-]+" if os.name == "posix" else r"[A-Za-z0-9_./~:\\-]+")
 _FALLBACKS = ("/tmp", "/var/tmp")  # where TMPDIR has others; other systems keep their own folder
+_PREFIX, _IN_USE = "bladeloss_", "in-use"
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Both are read by fmpy, which takes what XML can do.
 _DESCRIPTION, _SOURCES = "modelDescription.xml", "sources/buildDescription.xml"
@@ -142,6 +145,17 @@ class FmuFile:
         return bool(self.description.coSimulation.canGetAndSetFMUstate)
 
 
+def _remove_rests(root: Path) -> None:
+    """Remove what this user's processes extracted that were killed: their locks are free."""
+    for rest in root.glob(f"{_PREFIX}????????"):
+        mark = rest / _IN_USE
+        with suppress(OSError, Timeout):
+            ours = not hasattr(os, "getuid") or rest.lstat().st_uid == os.getuid()
+            if ours and not rest.is_symlink() and mark.is_file() and not mark.is_symlink():
+                with FileLock(mark, timeout=0):
+                    shutil.rmtree(rest, ignore_errors=True)
+
+
 class FmuStore:
     """Extracts FMU files on demand into one temporary folder, and removes it at the end.
 
@@ -154,7 +168,10 @@ class FmuStore:
     def __init__(self) -> None:
         roots = (tempfile.gettempdir(), *_FALLBACKS)
         root = next((r for r in roots if _SAFE_PATH.fullmatch(r) and os.access(r, os.W_OK)), None)
-        self.folder = Path(tempfile.mkdtemp(prefix="bladeloss_", dir=root))
+        _remove_rests(Path(root or tempfile.gettempdir()))
+        self.folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=root))
+        self._lock = FileLock(self.folder / _IN_USE)
+        self._lock.acquire()
         self._files: dict[Path, FmuFile] = {}
         self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
 
@@ -186,6 +203,7 @@ class FmuStore:
 
     def remove(self) -> None:
         """Remove the files alone, where a unit is still in a call that does not end."""
+        self._lock.release()
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self) -> FmuStore:

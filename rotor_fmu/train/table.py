@@ -77,6 +77,8 @@ def read_table(
 
 def _text(path: Path) -> str:
     try:
+        if path.exists() and not path.is_file():  # a device or a pipe, which has no end
+            raise TableError("not readable: no file")
         if path.is_file() and (size := path.stat().st_size) > LARGEST:
             raise TableError(f"not readable: {size} bytes, allowed are {LARGEST}")
         data = path.read_bytes()

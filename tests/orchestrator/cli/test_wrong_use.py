@@ -91,3 +91,16 @@ def test_without_a_command_its_help_is_shown():
 def test_a_command_can_be_called_from_python():
     result = CliRunner().invoke(app, ["--version"], prog_name="bladeloss", standalone_mode=False)
     assert result.output.startswith("bladeloss ")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--budget", "inf"), "--budget inf: allowed is a finite number"),
+        (("--checkpoint", "inf"), "--checkpoint inf: allowed is a finite number"),
+        (("--depth-at", "rear=v1", "--depth-at", "rear=v3"), "rear has been given v1; allowed is one depth"),
+    ],
+)
+def test_what_could_be_meant_in_two_ways_is_refused(arguments, said):
+    result = CliRunner().invoke(app, ["run", "small", *arguments])
+    assert result.exit_code == INPUT_ERROR and said in result.stderr

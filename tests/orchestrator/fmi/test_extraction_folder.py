@@ -1,5 +1,7 @@
 """Where FMUs are extracted: a path that hosts of Python FMUs bear, if there is one."""
 
+import os
+import signal
 import tempfile
 from pathlib import Path
 
@@ -7,6 +9,7 @@ import pytest
 
 from orchestrator.fmi import file
 from orchestrator.fmi.file import FmuStore
+from tests.faults import fault
 
 
 @pytest.fixture
@@ -32,3 +35,22 @@ def test_where_there_is_no_other_it_is_taken(odd, monkeypatch):
     monkeypatch.setattr(file, "_FALLBACKS", ("/no/such/folder",))
     with FmuStore() as store:
         assert store.folder.parent == Path(odd)
+
+
+@fault(
+    "process",
+    "what a killed run had extracted to the temporary folder",
+    "the next run removes it; what a run still uses stays",
+    guard="orchestrator.fmi.file:_remove_rests",
+)
+def test_rests_of_killed_runs_are_removed(room):
+    (room / "bladeloss_mine1234").mkdir()
+    killed = os.fork()
+    if killed == 0:
+        FmuStore()
+        os.kill(os.getpid(), signal.SIGKILL)
+    os.waitpid(killed, 0)
+    (rest,) = (path for path in room.iterdir() if path.name != "bladeloss_mine1234")
+    with FmuStore() as one, FmuStore() as other:
+        assert not rest.exists() and one.folder.exists() and other.folder.exists()
+    assert [path.name for path in room.iterdir()] == ["bladeloss_mine1234"]
