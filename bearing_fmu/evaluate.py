@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.contact.contact import CONTACT_RESULTS, sliding_sense
+from bearing_fmu.bore.bore import Bore
+from bearing_fmu.contact.contact import sliding_sense
+from bearing_fmu.contact.slice import CONTACT_RESULTS
 from bearing_fmu.kernels.compiled import variant
 from bearing_fmu.outputs import OUTPUTS, STATE, relative_state, write_outputs
 from bearing_fmu.result import RESULTS
@@ -32,17 +34,17 @@ def port_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
     name : str
         Of the film.
     solve : kernel
-        ``solve(film, scales, q, v, speed, result)`` writes wrench and tangent at the scaled state,
+        ``solve(film, bore, scales, q, v, speed, result)`` writes wrench and tangent at the scaled state,
         see `bearing_fmu.result`, and returns a code of `FilmStatus`.
     touch : kernel
-        ``touch(scales, table, q, grip, contact)`` adds the solid contact at the position in m and rad.
+        ``touch(bore, scales, table, q, grip, contact)`` adds the solid contact at the position in m and rad.
 
     Returns
     -------
     kernel
-        ``(inputs, offset, out, constants, table, film, work)``: the port's arrays, see `Film.solve`; the
-        bearing's constants and contact table; the film's work space; and ``work``, which holds in turn the
-        relative state, the results of film and contact, and the draft of the output.
+        ``(inputs, offset, out, constants, table, bore, film, work)``: the port's arrays, see
+        `Film.solve`; the bearing's constants, contact table and bore; the film's work space; and ``work``,
+        which holds in turn the relative state, the results of film and contact, and the draft of the output.
     """
 
     def evaluate(
@@ -51,21 +53,22 @@ def port_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
         out: Floats,
         constants: Constants,
         table: Floats,
+        bore: Bore,
         film: Any,
         work: Floats,
     ) -> int:
         scales = constants[0]
         state, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
-        status = relative_state(scales, inputs, offset, state)
+        status = relative_state(bore, scales, inputs, offset, state)
         if status != OK:
             return status
         speed, q, v = inputs[16], state[4:8], state[8:12]
-        status = solve(film, scales, q, v, speed, result)
+        status = solve(film, bore, scales, q, v, speed, result)
         if status != OK:
             return status
         contact[:] = 0.0
         grip = scales.friction * sliding_sense(speed, scales.radius)
-        touch(scales, table, state[:4], grip, contact)
-        return write_outputs(scales, inputs, state, result, contact, draft, out)
+        touch(bore, scales, table, state[:4], grip, contact)
+        return write_outputs(bore, scales, inputs, state, result, contact, draft, out)
 
     return variant(name, evaluate)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu import depths
+from bearing_fmu.bore.bore import bore_of
 from bearing_fmu.contact.greenwood_tripp import slice_table
 from bearing_fmu.evaluate import WORK
 from bearing_fmu.outputs import INPUTS, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
@@ -45,6 +46,8 @@ class Solver:
         Whether the film sees tilts.
     boundaries : tuple of str
         Boundary conditions at the rupture that it offers.
+    bores : bool
+        Whether it knows other bores than the plain one.
     stock : Stock, optional
         From which films share their work spaces; by default each film has its own.
     """
@@ -54,6 +57,7 @@ class Solver:
     prepare: Callable[[BearingParameters, dict[str, Any]], Any]
     tilts: bool = False
     boundaries: tuple[str, ...] = ("guembel",)
+    bores: bool = False
     stock: Stock | None = None
 
 
@@ -115,7 +119,7 @@ class Film:
     Raises
     ------
     ValueError
-        A boundary condition that the film does not have.
+        A boundary condition or a bore that the film does not have.
     """
 
     def __init__(
@@ -126,11 +130,14 @@ class Film:
                 f"bearing parameter boundary = {parameters.boundary!r}: the {solver.name} film has "
                 f"{' and '.join(solver.boundaries)} only"
             )
+        if parameters.arcs and not solver.bores:
+            raise ValueError(f"bearing parameter bore: the {solver.name} film knows the plain bore only")
         self.solver = solver
         self.parameters = parameters
         self.offset = np.array(offset, dtype=np.float64)
         table = slice_table(parameters)
         self._constants = scales(parameters, table, aligned=not solver.tilts), table.coefficients
+        self._bore = bore_of(parameters.arcs, parameters.columns)
         self._resolution = int(parameters.columns), int(parameters.rows)
         self._kernel = solver.kernel
         # of one resolution some films share their work space with others
@@ -190,7 +197,7 @@ class Film:
             if len(self._bound) >= _MOST_BOUND:
                 self._bound.clear()
             film = self.solver.prepare(self.parameters, space.arrays)
-            data = self._bound[space] = *self._constants, film, np.zeros(WORK)
+            data = self._bound[space] = *self._constants, self._bore, film, np.zeros(WORK)
         return space, data
 
     def bring_back(self, space: WorkSpace) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.gap import least_gap
-from bearing_fmu.contact.contact import FORCE, FORCE_SLOPE, LOAD
+from bearing_fmu.bore.bore import Bore, least_gap, relative_eccentricity
+from bearing_fmu.contact.slice import FORCE, FORCE_SLOPE, LOAD
 from bearing_fmu.kernels.compiled import inner_kernel
-from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS, WRENCH
+from bearing_fmu.result import DAMPING, DRAG, PEAK, SHEAR, STIFFNESS, WRENCH
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, NOT_FINITE, OK
 
@@ -20,7 +20,7 @@ OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
 
 
 @inner_kernel
-def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats) -> int:
+def relative_state(bore: Bore, scales: Scales, inputs: Floats, offset: Floats, state: Floats) -> int:
     """Relative state of journal and bore, and whether it can be evaluated.
 
     Parameters
@@ -54,14 +54,33 @@ def relative_state(scales: Scales, inputs: Floats, offset: Floats, state: Floats
         state[i] = q
         state[4 + i] = q * lever / scales.clearance
         state[8 + i] = v * lever / scales.clearance
-    if not least_gap(state[4:8])[0] > scales.deepest:
+    if not least_gap(bore, state[4:8])[0] > scales.deepest:
         return scales.closes
     return OK
 
 
 @inner_kernel
+def _turning(bore: Bore, scales: Scales, state: Floats, result: Floats) -> float:
+    """Integral of h dp/dphi over the film, m: twice the drag of the pressure on the journal.
+
+    In a plain bore it is the moment of the film force about the axis of the bore.
+    """
+    if bore is None:
+        x, y, tx, ty = state[0], state[1], state[2], state[3]
+        return x * result[1] - y * result[0] + 0.5 * scales.width * (tx * result[3] - ty * result[2])
+    return scales.clearance * result[DRAG]
+
+
+@inner_kernel
 def write_outputs(
-    scales: Scales, inputs: Floats, state: Floats, result: Floats, contact: Floats, draft: Floats, out: Floats
+    bore: Bore,
+    scales: Scales,
+    inputs: Floats,
+    state: Floats,
+    result: Floats,
+    contact: Floats,
+    draft: Floats,
+    out: Floats,
 ) -> int:
     """Write the port's outputs.
 
@@ -98,11 +117,9 @@ def write_outputs(
             draft[OUT_C + 4 * i + j] = c
             constant += k * inputs[j] + c * inputs[4 + j]
         draft[OUT_F0 + i] = constant
-    least, z, centre = least_gap(state[4:8])
-    # Film shear on the journal: Couette over the whole circumference, and Poiseuille, whose integral
-    # over h/2 dp/dx is half the moment of the film force about the bore's axis.
-    x, y, tx, ty = state[0], state[1], state[2], state[3]
-    turning = x * result[1] - y * result[0] + half * (tx * result[3] - ty * result[2])
+    least, z, centre = least_gap(bore, state[4:8])
+    turning = _turning(bore, scales, state, result)
+    # Film shear on the journal: Couette and Poiseuille.
     couette = scales.viscosity * scales.radius**3 * half / scales.clearance * result[SHEAR] * speed * speed
     grip = scales.friction * abs(speed) * scales.radius * contact[LOAD]
     draft[OUT_GAP] = least * scales.clearance
@@ -113,7 +130,7 @@ def write_outputs(
     for i in range(4):
         draft[OUT_GAP + 5 + i] = contact[FORCE + i]
     draft[OUT_GAP + 9] = couette + 0.5 * speed * scales.force * turning + grip
-    draft[OUT_GAP + 10] = 1.0 - centre
+    draft[OUT_GAP + 10] = relative_eccentricity(bore, state[4:8], centre)
     load = np.hypot(draft[0], draft[1])
     area = 2.0 * scales.radius * scales.width
     rate = scales.viscosity * abs(speed) * area * (scales.radius / scales.clearance) ** 2

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fmus import port
+from fmus.port.bore import PLAIN, Bore, from_text
 from fmus.port.variable import Value
 
 _ROUGHEST = 0.1
@@ -15,7 +16,7 @@ _COLUMNS, _ROWS = (int(port.bearing_parameter(key).start or 0) for key in ("colu
 
 @dataclass(frozen=True)
 class BearingParameters:
-    """One plain cylindrical bearing; the order and the meaning are the port's.
+    """One bearing; the order and the meaning are the port's.
 
     Attributes
     ----------
@@ -45,6 +46,10 @@ class BearingParameters:
         `bearing_fmu.films.turbulence`.
     density : float
         Of the oil, kg/m3; of turbulent films.
+    feed_pressure : float
+        Pressure in the grooves, over the cavity pressure, Pa.
+    bore : str
+        Its arcs, see `fmus.port.bore.from_text`.
 
     Raises
     ------
@@ -65,12 +70,18 @@ class BearingParameters:
     boundary: str = "guembel"
     turbulence: str = "laminar"
     density: float = port.default_of("density")
+    feed_pressure: float = 0.0
+    bore: str = PLAIN
 
     def __post_init__(self) -> None:
         for key in port.BEARING_KEYS:
             value, variable = getattr(self, key), port.bearing_parameter(key)
             if not variable.admits(value):
                 raise ValueError(f"bearing parameter {key} = {value!r}: must be {variable.range}")
+        try:
+            from_text(self.bore)
+        except ValueError as error:
+            raise ValueError(f"bearing parameter bore: {error}") from None
         if self.roughness > _ROUGHEST * self.clearance:
             raise ValueError(
                 f"bearing parameter roughness = {self.roughness!r}: must be at most clearance / 10, "
@@ -92,6 +103,11 @@ class BearingParameters:
     def radius(self) -> float:
         """Journal radius, m."""
         return 0.5 * self.diameter
+
+    @property
+    def arcs(self) -> Bore:
+        """Arcs of the bore; none of a plain one."""
+        return from_text(self.bore)
 
     @property
     def is_turbulent(self) -> bool:

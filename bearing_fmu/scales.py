@@ -22,6 +22,7 @@ SCALES = np.dtype(
         ("sigma", np.float64),  # roughness over clearance
         ("deepest", np.float64),  # least admissible gap over clearance
         ("ambient", np.float64),  # ambient pressure over `pressure`, 1/s
+        ("feed", np.float64),  # pressure in the grooves likewise
         ("pressure", np.float64),  # 6 eta R^2 / C^2, Pa s
         ("force", np.float64),  # `pressure` R b/2, N s
         ("slenderness", np.float64),  # (b/d)^2
@@ -50,6 +51,7 @@ def scales(parameters: BearingParameters, table: SliceTable, aligned: bool) -> N
         "sigma": parameters.roughness / clearance,
         "deepest": parameters.deepest_gap / clearance,
         "ambient": parameters.ambient_pressure / pressure,
+        "feed": parameters.feed_pressure / pressure,
         "pressure": pressure,
         "force": pressure * radius * 0.5 * parameters.width,
         "slenderness": (parameters.width / parameters.diameter) ** 2,

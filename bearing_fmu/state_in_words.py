@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearing_fmu.bore.gap import least_gap
+from bearing_fmu.bore.bore import bore_of, least_gap
 from bearing_fmu.parameters import BearingParameters
 
 
@@ -34,7 +34,7 @@ def state_in_words(
     clearance, lever = parameters.clearance, 0.5 * parameters.width
     scaled = q / clearance
     scaled[2:] *= lever if tilted else 0.0
-    gap = clearance * least_gap(scaled)[0]
+    gap = clearance * least_gap(bore_of(parameters.arcs, parameters.columns), scaled)[0]
     return (
         f"eccentricity ratio {np.hypot(q[0], q[1]) / clearance:.4g}, "
         f"tilts {1e6 * q[2]:.4g} and {1e6 * q[3]:.4g} urad{'' if tilted else ' (not seen at this depth)'}, "

@@ -50,30 +50,3 @@ def flow_gaps(h: Floats, sigma: float, rough: bool, t: Floats, t1: Floats, t2: F
             t[i] = h[i]
             t1[i] = 1.0
             t2[i] = 0.0
-
-
-@kernel
-def least_gap(q: Floats) -> tuple[float, float, float]:
-    """Least gap over the film, its position, and the least gap at the mid-plane.
-
-    At one z the least gap around the circumference is 1 - e(z), and e is convex over z (the norm of
-    a linear function), so that the least gap lies at an end.
-
-    Parameters
-    ----------
-    q : ndarray, shape (4,)
-        Position over the clearance, tilts times half the width over the clearance.
-
-    Returns
-    -------
-    least, z, centre : float
-        Over the clearance; z over half the width, 0 for an aligned journal.
-    """
-    centre = 1.0 - np.hypot(q[0], q[1])
-    left = 1.0 - np.hypot(q[0] - q[3], q[1] + q[2])
-    right = 1.0 - np.hypot(q[0] + q[3], q[1] - q[2])
-    if q[2] == 0.0 and q[3] == 0.0:
-        return centre, 0.0, centre
-    if left < right:
-        return left, -1.0, centre
-    return right, 1.0, centre

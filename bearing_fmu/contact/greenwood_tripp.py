@@ -9,7 +9,8 @@ The asperity pressure over a gap h of surfaces with combined roughness sigma is 
 that overlapping mean lines stay stiff, smooth and finite.
 
 At one axial position the gap C - e cos(psi) depends on the eccentricity e alone, and so do force and
-normal load of the slice.  They are tabulated once for a bearing as cubic splines.
+normal load of the slice.  They are tabulated once for a bearing as cubic splines.  In a bore of arcs
+it is the pressure times R along one normal.
 """
 
 from __future__ import annotations
@@ -90,6 +91,14 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     first = clearance - REACH * sigma
     step = _STEP * sigma
     e = first + step * np.arange(int(np.ceil((clearance - parameters.deepest_gap - first) / step)) + 2)
+    if parameters.arcs:  # over the gap along one normal: what an arc has of it is integrated as it comes
+        pressure = parameters.radius * contact_pressure(
+            np.asarray(clearance - e), sigma, parameters.contact_modulus
+        )
+        splines = spline_coefficients(
+            np.arange(e.size, dtype=np.float64), pressure - pressure[0], first_slope=0.0
+        )
+        return SliceTable(float(first), float(step), np.ascontiguousarray(splines.T[:, None]))
     # Gauss-Legendre over the arc of contact, in pieces that resolve the change from tail to overlap.
     node, weight = np.polynomial.legendre.leggauss(16)
     pieces = 8

@@ -20,24 +20,25 @@ from bearing_fmu.kernels.compiled import inner_kernel
 Floats = NDArray[np.float64]
 
 #: Rows of a ring of points: functions of phi, the metric dphi/dt, and for each of the four
-#: coordinates q_k the motion of the point dphi/dq_k and the change of the metric dlog(m)/dq_k.
-COS, SIN, METRIC, MOTION, STRETCHING, RING_ROWS = 0, 1, 2, 3, 7, 11
+#: coordinates q_k the motion of the point dphi/dq_k and the change of the metric dlog(m)/dq_k; of a bore with
+#: grooves the part of the metric that is none.
+COS, SIN, METRIC, MOTION, STRETCHING, LAND, RING_ROWS = 0, 1, 2, 3, 7, 11, 12
 
 
 @inner_kernel
-def _grading_of(ex: float, ey: float, a: Floats, da: Floats) -> None:
+def _grading_of(ex: float, ey: float, most: float, a: Floats, da: Floats) -> None:
     """Map parameter of one eccentricity, a = e g(|e|^2), and its derivative (2, 2).
 
     The eccentricity saturates smoothly below 1, e (1 + |e|^32)^(-1/32), so that the grid stays
-    regular while asperities overlap.
+    regular while asperities overlap; its square goes in with the factor `most`, of at most 1.
     """
     square = ex * ex + ey * ey
     power = square**15
     large = power * square
     mu = (1.0 + large) ** (-1.0 / 32.0)
     dmu = -0.5 * mu * power / (1.0 + large)
-    tau = square * mu * mu
-    dtau = mu * mu + 2.0 * square * mu * dmu
+    tau = most * (square * mu * mu)
+    dtau = most * (mu * mu + 2.0 * square * mu * dmu)
     root = np.sqrt(1.0 - tau)
     g = mu / (1.0 + root)
     dg = dmu / (1.0 + root) + mu * dtau / (2.0 * root * (1.0 + root) ** 2)
@@ -50,13 +51,15 @@ def _grading_of(ex: float, ey: float, a: Floats, da: Floats) -> None:
 
 
 @inner_kernel
-def grade(q: Floats, a: Floats, da: Floats, part: Floats) -> None:
+def grade(q: Floats, most: float, a: Floats, da: Floats, part: Floats) -> None:
     """Map parameter of a tilted journal and its derivative.
 
     Parameters
     ----------
     q : ndarray, shape (4,)
         Dimensionless position (x, y, tilt_x, tilt_y): the centre at z lies at (x + tilt_y z, y - tilt_x z).
+    most : float
+        1; less where eccentricities beyond 1 are usual, as seen from an arc of a bore.
     a, da : ndarray, shape (2,), (2, 4)
         Results: a and da/dq.
     part : ndarray, shape (3, 2)
@@ -65,7 +68,7 @@ def grade(q: Floats, a: Floats, da: Floats, part: Floats) -> None:
     a[:] = 0.0
     da[:] = 0.0
     for end in (-1.0, 1.0):
-        _grading_of(q[0] + end * q[3], q[1] - end * q[2], part[0], part[1:])
+        _grading_of(q[0] + end * q[3], q[1] - end * q[2], most, part[0], part[1:])
         for i in range(2):
             a[i] += 0.5 * part[0, i]
             da[i, 0] += 0.5 * part[1 + i, 0]

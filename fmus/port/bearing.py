@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fmus.port.bore import PLAIN
 from fmus.port.connector import (
     FORCE,
     KINEMATIC_TEXT,
@@ -104,6 +105,23 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         nominal=1e3,
         above=True,
     ),
+    Variable(
+        "feed_pressure",
+        "parameter",
+        "Pa",
+        "pressure in the grooves, over the cavity",
+        0.0,
+        minimum=0.0,
+        nominal=1e5,
+    ),
+    Variable(
+        "bore",
+        "parameter",
+        "",
+        f"{PLAIN}, or its arcs [[start, end, preload, towards], ...] in rad; between them grooves",
+        PLAIN,
+        kind="String",
+    ),
 )
 
 _AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
@@ -148,6 +166,8 @@ BEARING_KEYS: dict[str, str] = {
     "boundary": "film.boundary",
     "turbulence": "film.turbulence",
     "density": "density",
+    "feed_pressure": "feed_pressure",
+    "bore": "bore",
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 

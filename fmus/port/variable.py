@@ -85,7 +85,7 @@ class Variable:
     def admits(self, value: Value) -> bool:
         """Tell whether a number is finite and in the range, or a word one of the choices."""
         if isinstance(value, str):
-            return value in self.choices
+            return not self.choices or value in self.choices
         low = -inf if self.minimum is None else self.minimum
         high = inf if self.maximum is None else self.maximum
         whole = self.kind != "Integer" or (isfinite(value) and value == int(value))

@@ -119,7 +119,10 @@ def _film_problems(contents: Contents) -> Iterator[str]:
     """Bearings of bladeloss whose values are no bearing's, such as a clearance in mm."""
     for component in contents.bearings:
         if contents.files[component.name].variables.keys() >= set(_FILM.values()):
-            values = {key: float(value_of(contents, component, name)) for key, name in _FILM.items()}
+            values = {
+                key: str(value) if key == "bore" else float(value)
+                for key, value in ((key, value_of(contents, component, name)) for key, name in _FILM.items())
+            }
             yield from (f"{component.name}: {text}" for text in film_problems(values))
 
 

@@ -81,7 +81,7 @@ def entry_problems(shaft: Train, kind: str, index: int, entry: Placed) -> Iterat
         yield (kind, index, key), f"{kind} {entry.name!r}: {text}"
 
 
-def film_problems(values: Mapping[str, float]) -> Iterator[str]:
+def film_problems(values: Mapping[str, float | str]) -> Iterator[str]:
     """Yield what is wrong with the data of one film, wherever they come from.
 
     Parameters

@@ -13,6 +13,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from rotor_fmu.train.bore import KEYS
 from rotor_fmu.train.checks import (
     POSITION_TOLERANCE,
     entry_problems,
@@ -194,12 +195,13 @@ def _train(
     for kind, places in nodes.items():
         joint = CouplingEntry.model_fields.keys() - {"name"} if kind == "coupling" else set()
         parts[kind] = [
-            {**entry.model_dump(exclude={"z", "side", *COEFFICIENTS, *joint}), "node": node}
+            {**entry.model_dump(exclude={"z", "side", *COEFFICIENTS, *KEYS, *joint}), "node": node}
             for entry, node in zip(getattr(data, kind), places, strict=True)
         ]
     for index, seat in enumerate(parts["bearing"]):
         assert data is not None
-        seat |= {"coefficients": given.get(index, ""), "has_film": data.bearing[index].has_film}
+        entry = data.bearing[index]
+        seat |= {"coefficients": given.get(index, ""), "has_film": entry.has_film, "bore": entry.bore_text}
         if not seat["has_film"]:
             around = shoulders[max(seat["node"] - 1, 0) : seat["node"] + 1]
             journal = min(shoulder.outer_diameter for shoulder in around)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from fmus.port.bore import from_text
+from rotor_fmu.train.bore import leaning
 from rotor_fmu.train.train import BearingSeat
 
 ECCENTRICITY = 0.99
@@ -43,4 +45,11 @@ def most_load(seat: BearingSeat, speed: float, eccentricity: float = ECCENTRICIT
     long *= e * math.sqrt(math.pi**2 - e * e * (math.pi**2 - 4.0)) / ((2.0 + e * e) * rest)
     short = 0.25 * shear * (seat.width / seat.clearance) ** 2
     short *= e * math.sqrt(16.0 * e * e + math.pi**2 * rest) / rest**2
+    if arcs := from_text(seat.bore):
+        # an arc carries less than the whole circle that it is a part of
+        lean = leaning(arcs, -0.5 * math.pi)
+        return (
+            lean * min(long, short)
+            + (seat.ambient_pressure + seat.feed_pressure) * seat.width * seat.diameter
+        )
     return min(long, short) + seat.ambient_pressure * seat.width * seat.diameter

@@ -22,6 +22,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from fmus import port
+from rotor_fmu.train import bore as bores
 from rotor_fmu.train.coefficients import Matrix, matrix
 from rotor_fmu.train.units import in_si
 
@@ -212,6 +213,13 @@ class BearingEntry(Placed):
     density: float = Field(
         port.default_of("density"), gt=100.0, lt=3e3, description="kg/m3; did you give t/m3?"
     )
+    feed_pressure: float = within(0.0, 1e8, _PRESSURE, 0.0)
+    bore: str = bores.PLAIN
+    preload: float = within(0.0, 0.95, "", 0.0)
+    offset: float | None = within(0.0, 1.0, "", None)
+    first: float = angle(0.0)
+    grooves: Annotated[bores.Rows | None, BeforeValidator(bores.groove_rows)] = None
+    arcs: Annotated[bores.Rows | None, BeforeValidator(bores.arc_rows)] = None
     load: float | None = within(-1e9, 1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)
@@ -227,6 +235,11 @@ class BearingEntry(Placed):
         """Whether it has a bore, from which a film can be made."""
         return self._has_film
 
+    @property
+    def bore_text(self) -> str:
+        """Its bore for the unit."""
+        return bores.bore_text(self.bore, self.preload, self.offset, self.first, self.grooves, self.arcs)
+
     @model_validator(mode="wrap")
     @classmethod
     def _without_bore(cls, data: Any, handler: ModelWrapValidatorHandler[BearingEntry]) -> BearingEntry:
@@ -234,6 +247,7 @@ class BearingEntry(Placed):
         bare = isinstance(data, dict) and not COEFFICIENTS.isdisjoint(data) and BORE.keys().isdisjoint(data)
         entry = handler({**BORE, **data} if bare else data)
         entry._has_film = not bare
+        _ = entry.bore_text  # refuses what is no bore
         if entry.table is not None and (entry.stiffness is not None or entry.damping is not None):
             raise ValueError("table: given beside stiffness or damping; allowed is one of them")
         return entry

@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 
 from fmus import port
+from fmus.port.bore import PLAIN
 from rotor_fmu.train.shoulder import Joint, Material, Ring, Shoulder
 
 __all__ = ["BearingSeat", "Coupling", "Joint", "LumpedMass", "Material", "Ring", "Shoulder", "Train", "Wheel"]
@@ -85,6 +86,10 @@ class BearingSeat:
         Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
     density : float
         Of the oil, for turbulent films [kg/m3].
+    feed_pressure : float
+        Pressure in the grooves, over the cavity [Pa].
+    bore : str
+        Its arcs, see `fmus.port.bore.from_text`.
     load : float or None
         Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
@@ -110,6 +115,8 @@ class BearingSeat:
     contact_modulus: float = port.default_of("contact_modulus")
     friction: float = port.default_of("friction")
     density: float = port.default_of("density")
+    feed_pressure: float = 0.0
+    bore: str = PLAIN
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0

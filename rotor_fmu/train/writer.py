@@ -17,7 +17,7 @@ Placed: TypeAlias = Coupling | BearingSeat | Wheel | LumpedMass
 
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
 _MORE = ",rear_outer_diameter,rear_inner_diameter,counts,z"
-_SINCE = ("height", "sleeve")
+_SINCE = ("height", "sleeve", "feed_pressure", "bore")
 """Keys that are written where they differ from their defaults."""
 
 

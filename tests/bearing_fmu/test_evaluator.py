@@ -161,7 +161,7 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
     space, _ = film.take()
     film.bring_back(space)
     for other in others:
-        taken, (_, _, work, _) = other.take()
+        taken, (_, _, _, work, _) = other.take()
         assert taken is space
         work.held[:, 3] = 2.0
         other.bring_back(taken)
@@ -173,8 +173,8 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
 
 def test_no_two_evaluations_use_one_work_space():
     one, other = make_film("v1", TURBINE), make_film("v1", TURBINE)
-    first, (_, _, mine, _) = one.take()
-    second, (_, _, theirs, _) = other.take()
+    first, (_, _, _, mine, _) = one.take()
+    second, (_, _, _, theirs, _) = other.take()
     assert not np.shares_memory(mine.blocks, theirs.blocks)
     assert not np.shares_memory(mine.pressures, theirs.pressures)
     one.bring_back(first)

@@ -11,16 +11,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
+from bearing_fmu.bore.bore import Bore, fill_gap, gap_turn, land, least_gap, place_rings
+from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.tilted.reynolds import summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
-from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING, grade, place
+from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
 from bearing_fmu.kernels.guembel import bearing_part
 from bearing_fmu.result import (
     CONDUCTANCE,
     DAMPING,
+    DRAG,
     GAP,
     OPEN,
     OPEN_1,
@@ -36,21 +38,18 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
+def _shape_gap(film: AlignedFilm, bore: Bore, q: Floats, v: Floats, sigma: float) -> None:
     """Grid, gap, conductances and squeezed volume."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    a, da = film.grading[0, :2], film.grading[1:3]
-    grade(q, a, da, film.grading[3:, :2])
-    rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    place_rings(bore, film.circle, q, 2, film.grading, film.rings)
+    rough = least_gap(bore, q)[0] < ROUGH_LIMIT * sigma
     film.fields[:, POWER] = LAMINAR_POWER
     for side in range(2):
         ring, field = film.rings[side], film.fields[side]
-        place(film.circle[side], a, da, 2, ring)
-        cos, sin, metric = ring[COS], ring[SIN], ring[METRIC]
+        metric = ring[METRIC]
         gap, t, conductance = field[GAP], field[OPEN], field[CONDUCTANCE]
-        for i in range(m):
-            gap[i] = 1.0 - q[0] * cos[i] - q[1] * sin[i]
+        fill_gap(bore, side, q[0], q[1], ring, gap)
         flow_gaps(gap, sigma, rough, t, field[OPEN_1], field[OPEN_2])
         for i in range(m):
             width = cell * metric[i] if side == 0 else 1.0 / (cell * metric[i])
@@ -63,30 +62,64 @@ def _shape_gap(film: AlignedFilm, q: Floats, v: Floats, sigma: float) -> None:
 
 
 @inner_kernel
-def _turbulent_shear(film: AlignedFilm, reynolds: float) -> float:
+def _turbulent_shear(film: AlignedFilm, bore: Bore, reynolds: float) -> float:
     """Integral of 1/T times the drag of turbulence."""
     m = film.circle.shape[2]
-    shear = 0.0
+    shear, metric = 0.0, land(bore, film.rings[0])
     for i in range(m):
         t = film.fields[0, OPEN, i]
-        shear += film.rings[0, METRIC, i] / t * drag(reynolds * t)
+        shear += metric[i] / t * drag(reynolds * t)
     return 4.0 * np.pi / m * shear
 
 
 @inner_kernel
-def _factorise(film: AlignedFilm) -> bool:
+def _links(film: AlignedFilm, bore: Bore) -> Floats:
+    """What couples neighbouring columns: the conductances, but not next to columns of given pressure."""
+    along = film.fields[1, CONDUCTANCE]
+    if bore is None:
+        return along
+    links, m = film.forcing[7], film.circle.shape[2]
+    links[:] = along
+    for i in bore.held:
+        links[i] = 0.0
+        links[i - 1 if i > 0 else m - 1] = 0.0
+    return links
+
+
+@inner_kernel
+def _feed(film: AlignedFilm, bore: Bore, pressure: float) -> None:
+    """Right-hand sides for the feed pressure, over the ambient one, in the columns of grooves."""
+    if bore is not None:
+        m = film.circle.shape[2]
+        along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
+        for i in bore.held:
+            back = i - 1 if i > 0 else m - 1
+            fore = i + 1 if i + 1 < m else 0
+            for r in range(film.values.shape[0]):
+                film.modal[0, back, r] += along[back] * pressure * film.drive[r]
+                film.modal[0, fore, r] += along[i] * pressure * film.drive[r]
+        for i in bore.held:
+            back = i - 1 if i > 0 else m - 1
+            for r in range(film.values.shape[0]):
+                diagonal = film.values[r] * axial[i] + along[i] + along[back]
+                film.modal[0, i, r] = diagonal * pressure * film.drive[r]
+
+
+@inner_kernel
+def _factorise(film: AlignedFilm, bore: Bore) -> bool:
     """Eliminate each mode's columns as `ring.factorise` does, all modes abreast."""
     m, modes = film.circle.shape[2], film.values.shape[0]
     along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
+    link = _links(film, bore)
     s, v, last = film.forcing[0], film.forcing[1], film.forcing[2]
     for r in range(modes):
         last[r] = film.values[r] * axial[m - 1] + along[m - 1] + along[m - 2]
         s[r] = film.values[r] * axial[0] + along[0] + along[m - 1]
-        v[r] = -along[m - 1]
+        v[r] = -link[m - 1]
     for i in range(m - 1):
         for r in range(modes):
             if i == m - 2:
-                v[r] -= along[i]
+                v[r] -= link[i]
             if not s[r] > 0.0:
                 return False
             inverse = 1.0 / s[r]
@@ -94,8 +127,8 @@ def _factorise(film: AlignedFilm) -> bool:
             film.factor[i, 0, r] = inverse
             film.factor[i, 1, r] = fill
             last[r] -= fill * v[r]
-            v[r] = along[i] * fill
-            s[r] = film.values[r] * axial[i + 1] + along[i + 1] + along[i] - along[i] * along[i] * inverse
+            v[r] = link[i] * fill
+            s[r] = film.values[r] * axial[i + 1] + along[i + 1] + along[i] - link[i] * link[i] * inverse
     for r in range(modes):
         if not last[r] > 0.0:
             return False
@@ -104,16 +137,16 @@ def _factorise(film: AlignedFilm) -> bool:
 
 
 @inner_kernel
-def _substitute(film: AlignedFilm, first: int, sides: int) -> None:
+def _substitute(film: AlignedFilm, bore: Bore, first: int, sides: int) -> None:
     """Solve in place for the modal pressures from `first`, all modes and sides abreast."""
     m, modes = film.circle.shape[2], film.values.shape[0]
-    along = film.fields[1, CONDUCTANCE]
+    link = _links(film, bore)
     for i in range(m - 1):
         for k in range(first, first + sides):
             for r in range(modes):
                 y = film.modal[k, i, r]
                 if i > 0:
-                    y += along[i - 1] * film.modal[k, i - 1, r]
+                    y += link[i - 1] * film.modal[k, i - 1, r]
                 film.modal[k, i, r] = film.factor[i, 0, r] * y
                 film.modal[k, m - 1, r] -= film.factor[i, 1, r] * y
     for k in range(first, first + sides):
@@ -124,16 +157,36 @@ def _substitute(film: AlignedFilm, first: int, sides: int) -> None:
             for r in range(modes):
                 x = film.modal[k, i, r] - film.factor[i, 1, r] * film.modal[k, m - 1, r]
                 if i < m - 2:
-                    x += film.factor[i, 0, r] * along[i] * film.modal[k, i + 1, r]
+                    x += film.factor[i, 0, r] * link[i] * film.modal[k, i + 1, r]
                 film.modal[k, i, r] = x
 
 
+@inner_kernel
+def _drag(film: AlignedFilm, bore: Bore, ambient: float) -> float:
+    """Integral of H dp/dphi over the bearing part of the pressure; of a plain bore the force tells it."""
+    total = 0.0
+    if bore is not None:
+        m, gap, above = film.circle.shape[2], film.fields[1, GAP], film.forcing[0]
+        for j in range(film.weights.shape[0]):
+            for i in range(m):
+                above[i] = ambient
+                for r in range(film.values.shape[0]):
+                    above[i] += film.shapes[j, r] * film.modal[0, i, r]
+                above[i] = max(above[i], 0.0)
+            for i in range(m):
+                fore = i + 1 if i + 1 < m else 0
+                total += film.weights[j] * bore.inside[1, i] * gap[i] * (above[fore] - above[i])
+    return total
+
+
 @stage
-def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Floats) -> bool:
+def _solve_pressure(
+    film: AlignedFilm, bore: Bore, speed: float, ambient: float, feed: float, result: Floats
+) -> bool:
     """Pressure, wrench, largest pressure and shear integral."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    if not _factorise(film):
+    if not _factorise(film, bore):
         return False
     t, t1, squeeze = film.fields[1, OPEN], film.fields[0, OPEN_1], film.fields[0, SQUEEZE]
     for i in range(m):
@@ -141,7 +194,8 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
         drive = -(speed * (t[i] - t[back]) + 2.0 * t1[i] * squeeze[i])
         for r in range(film.values.shape[0]):
             film.modal[0, i, r] = film.drive[r] * drive
-    _substitute(film, 0, 1)
+    _feed(film, bore, feed - ambient)
+    _substitute(film, bore, 0, 1)
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
     above = film.forcing[0]
     for j in range(film.weights.shape[0]):
@@ -157,7 +211,9 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
             across += part[i] * metric[i] * sin[i]
         result[0] -= along * film.weights[j] * cell
         result[1] -= across * film.weights[j] * cell
+    result[DRAG] = _drag(film, bore, ambient)
     shear = 0.0
+    metric = land(bore, film.rings[0])
     for i in range(m):
         above[i] = ambient
         for r in range(film.values.shape[0]):
@@ -169,7 +225,7 @@ def _solve_pressure(film: AlignedFilm, speed: float, ambient: float, result: Flo
 
 
 @inner_kernel
-def _solve_adjoints(film: AlignedFilm) -> None:
+def _solve_adjoints(film: AlignedFilm, bore: Bore) -> None:
     """Modal adjoint pressures 1 and 2, for the two components of the force."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
@@ -189,15 +245,18 @@ def _solve_adjoints(film: AlignedFilm) -> None:
             for r in range(film.values.shape[0]):
                 film.modal[1, i, r] += film.shapes[j, r] * along
                 film.modal[2, i, r] += film.shapes[j, r] * across
-    _substitute(film, 1, 2)
+    if bore is not None:
+        for i in bore.held:
+            film.modal[1:, i] = 0.0
+    _substitute(film, bore, 1, 2)
 
 
 @inner_kernel
-def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: Floats) -> None:
+def _add_tangent(film: AlignedFilm, bore: Bore, q: Floats, v: Floats, speed: float, result: Floats) -> None:
     """dF/dq and dF/dv as in `tangent`, the sums over the rows being sums over the modes."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    _solve_adjoints(film)
+    _solve_adjoints(film, bore)
     columns, faces = film.rings[0], film.rings[1]
     column, face = film.fields[0], film.fields[1]
     force = film.forcing[1]
@@ -228,8 +287,8 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
             dsin = faces[SIN, i] - faces[SIN, back]
             result[DAMPING + at] -= squeezed * dsin
             result[DAMPING + at + 1] += squeezed * dcos
-            turn_c = q[0] * columns[SIN, i] - q[1] * columns[COS, i]
-            turn_f = q[0] * faces[SIN, i] - q[1] * faces[COS, i]
+            turn_c = gap_turn(bore, 0, q[0], q[1], columns, i)
+            turn_f = gap_turn(bore, 1, q[0], q[1], faces, i)
             place_c = columns[COS, i] if component == 0 else columns[SIN, i]
             place_t = -columns[SIN, i] if component == 0 else columns[COS, i]
             for k in range(2):
@@ -247,23 +306,25 @@ def _add_tangent(film: AlignedFilm, q: Floats, v: Floats, speed: float, result: 
 @stage
 def solve_aligned(
     film: AlignedFilm,
+    bore: Bore,
     q: Floats,
     v: Floats,
     speed: float,
     ambient: float,
+    feed: float,
     sigma: float,
     reynolds: float,
     result: Floats,
 ) -> bool:
     """Wrench and tangent of the aligned film; parameters and result as in `reynolds.solve_pressure`."""
     result[:] = 0.0
-    _shape_gap(film, q, v, sigma)
+    _shape_gap(film, bore, q, v, sigma)
     if reynolds > 0.0:
         slow_down(reynolds, film.circle.shape[2], ALONG, film.fields[0])
         slow_down(reynolds, film.circle.shape[2], AROUND, film.fields[1])
-    if not _solve_pressure(film, speed, ambient, result):
+    if not _solve_pressure(film, bore, speed, ambient, feed, result):
         return False
     if reynolds > 0.0:
-        result[SHEAR] = _turbulent_shear(film, reynolds)
-    _add_tangent(film, q, v, speed, result)
+        result[SHEAR] = _turbulent_shear(film, bore, reynolds)
+    _add_tangent(film, bore, q, v, speed, result)
     return True

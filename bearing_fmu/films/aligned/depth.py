@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.bore.bore import Bore
 from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
@@ -25,9 +26,13 @@ Floats = NDArray[np.float64]
 
 
 @stage
-def _solve(film: AlignedFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
+def _solve(
+    film: AlignedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
+) -> int:
     reynolds = scales.reynolds * abs(speed)
-    if not solve_aligned(film, q, v, speed, scales.ambient, scales.sigma, reynolds, result):
+    if not solve_aligned(
+        film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, result
+    ):
         return NO_SOLUTION
     return OK
 
@@ -36,7 +41,7 @@ def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFi
     return aligned_film(parameters.columns, parameters.rows, parameters.diameter / parameters.width)
 
 
-SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare)
+SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare, bores=True)
 
 RUPTURING = replace(TILTED, name="aligned", tilts=False, boundaries=("reynolds",))
 """With Reynolds' condition, which holds single nodes: the axial modes do not part, and V1's solver serves."""

@@ -25,7 +25,7 @@ class AlignedFilm(NamedTuple):
     weights: Floats  #: (h,) of integrals over z, both halves
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     rings: Floats  #: (2, RING_ROWS, m)
-    grading: Floats  #: (6, 4)
+    grading: Floats  #: (7, 4)
     fields: Floats  #: (2, FIELDS, m) columns and faces
     nodal: Floats  #: (h, 4, m) bearing part of the pressure and its derivatives
     modal: Floats  #: (3, m, r) the pressure and two adjoint ones
@@ -51,7 +51,7 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         weights=mass[half] * double,
         circle=np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])]),
         rings=np.zeros((2, RING_ROWS, columns)),
-        grading=np.zeros((6, 4)),
+        grading=np.zeros((7, 4)),
         fields=np.zeros((2, FIELDS, columns)),
         nodal=np.zeros((half.size, 4, columns)),
         modal=np.zeros((3, columns, even.size)),

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.bore.bore import Bore
 from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
@@ -23,7 +24,9 @@ Floats = NDArray[np.float64]
 
 
 @stage
-def _solve(film: Floats, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
+def _solve(
+    film: Floats, _bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
+) -> int:
     reynolds = scales.reynolds * abs(speed)
     solve_short(q, v, speed, scales.ambient, scales.sigma, reynolds, scales.slenderness, film, result)
     return OK

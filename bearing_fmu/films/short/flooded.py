@@ -77,7 +77,7 @@ def flooded(
     position, grading = small[:4], small[4:6]
     derivative = small[6:14].reshape(2, 4)
     position[0], position[1], position[2], position[3] = x, y, 0.0, 0.0
-    grade(position, grading, derivative, small[14:20].reshape(3, 2))
+    grade(position, 1.0, grading, derivative, small[14:20].reshape(3, 2))
     if ambient > 0.0:
         place(film[CIRCLE : CIRCLE + 2], grading, derivative, 2, ring)
     else:

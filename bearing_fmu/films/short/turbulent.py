@@ -101,7 +101,7 @@ def turbulent_shear(
     """Integral of the drag over H, both over the film; `small` is work space of 20."""
     position, grading, derivative = small[:4], small[4:6], small[6:14].reshape(2, 4)
     position[0], position[1], position[2], position[3] = x, y, 0.0, 0.0
-    grade(position, grading, derivative, small[14:20].reshape(3, 2))
+    grade(position, 1.0, grading, derivative, small[14:20].reshape(3, 2))
     place(circle, grading, derivative, 0, ring)
     total = 0.0
     for i in range(circle.shape[1]):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.bore.bore import Bore
 from bearing_fmu.contact.contact import add_tilted
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
@@ -24,13 +25,25 @@ Floats = NDArray[np.float64]
 
 
 @stage
-def _solve(film: TiltedFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats) -> int:
+def _solve(
+    film: TiltedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
+) -> int:
     reynolds = scales.reynolds * abs(speed)
     status = solve_pressure(
-        film, q, v, speed, scales.ambient, scales.sigma, reynolds, scales.ruptures, result
+        film,
+        bore,
+        q,
+        v,
+        speed,
+        scales.ambient,
+        scales.feed,
+        scales.sigma,
+        reynolds,
+        scales.ruptures,
+        result,
     )
     if status == OK:
-        add_tangent(film, q, v, speed, result)
+        add_tangent(film, bore, q, v, speed, result)
     return status
 
 
@@ -44,6 +57,7 @@ SOLVER = Solver(
     kernel=port_kernel("tilted", _solve, add_tilted),
     prepare=_prepare,
     tilts=True,
+    bores=True,
     boundaries=("guembel", "reynolds"),
     stock=STOCK,
 )

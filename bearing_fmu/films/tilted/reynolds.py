@@ -18,42 +18,52 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps, least_gap
+from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap, place_rings
+from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.cyclic_solver import factorise, substitute
-from bearing_fmu.kernels.grid import COS, METRIC, SIN, grade, place
+from bearing_fmu.kernels.grid import COS, METRIC, SIN
 from bearing_fmu.kernels.guembel import bearing_part
 from bearing_fmu.kernels.vector import LANES, add_rows
-from bearing_fmu.result import ABSOLUTE, CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, PEAK, POWER, SHEAR, SQUEEZE
+from bearing_fmu.result import (
+    ABSOLUTE,
+    CONDUCTANCE,
+    DRAG,
+    GAP,
+    OPEN,
+    OPEN_1,
+    OPEN_2,
+    PEAK,
+    POWER,
+    SHEAR,
+    SQUEEZE,
+)
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _shape_gap(film: TiltedFilm, q: Floats, sigma: float) -> None:
+def _shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float) -> None:
     """Grid, gap and conductances at the columns (axial flow) and at the faces (flow around)."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    a, da = film.grading[0, :2], film.grading[1:3]
-    grade(q, a, da, film.grading[3:, :2])
-    rough = least_gap(q)[0] < ROUGH_LIMIT * sigma
+    place_rings(bore, film.circle, q, 4, film.grading, film.rings)
+    rough = least_gap(bore, q)[0] < ROUGH_LIMIT * sigma
     film.column[POWER] = LAMINAR_POWER
     film.face[POWER] = LAMINAR_POWER
     for side in range(2):
         ring = film.rings[side]
-        place(film.circle[side], a, da, 4, ring)
-        cos, sin, metric = ring[COS], ring[SIN], ring[METRIC]
+        metric = ring[METRIC]
         field = film.column if side == 0 else film.face
         for j in range(field.shape[1]):
             ex = q[0] + q[3] * film.nodes[j]
             ey = q[1] - q[2] * film.nodes[j]
             gap, t, conductance = field[GAP, j], field[OPEN, j], field[CONDUCTANCE, j]
-            for i in range(m):
-                gap[i] = 1.0 - ex * cos[i] - ey * sin[i]
+            fill_gap(bore, side, ex, ey, ring, gap)
             flow_gaps(gap[:m], sigma, rough, t, field[OPEN_1, j], field[OPEN_2, j])
             if side == 0:
                 scale = film.stiffness[j] * cell
@@ -76,10 +86,10 @@ def _make_turbulent(film: TiltedFilm, reynolds: float) -> None:
 
 
 @inner_kernel
-def _turbulent_shear(film: TiltedFilm, reynolds: float) -> float:
+def _turbulent_shear(film: TiltedFilm, bore: Bore, reynolds: float) -> float:
     """Integral of 1/T times the drag of turbulence."""
     m = film.circle.shape[2]
-    metric, shear = film.rings[0, METRIC], 0.0
+    metric, shear = land(bore, film.rings[0]), 0.0
     for j in range(film.column.shape[1]):
         t = film.column[OPEN, j]
         total = 0.0
@@ -117,6 +127,28 @@ def _assemble(film: TiltedFilm, v: Floats, speed: float) -> None:
 
 
 @inner_kernel
+def _feed(film: TiltedFilm, bore: Bore, pressure: float) -> None:
+    """Hold the columns in grooves at the feed pressure, over the ambient one."""
+    if bore is not None:
+        n, m = film.face.shape[1], film.circle.shape[2]
+        width = film.coupling.shape[0] // m
+        b, coupling, sides = film.blocks[0], film.coupling, film.sides
+        for i in bore.held:
+            back = i - 1 if i > 0 else m - 1
+            fore = i + 1 if i + 1 < m else 0
+            b[i * n * width : (i + 1) * n * width] = 0.0
+            for j in range(n):
+                b[(i * n + j) * width + j] = 1.0
+                sides[back * width + j] += coupling[back * width + j] * pressure
+                sides[fore * width + j] += coupling[i * width + j] * pressure
+                coupling[back * width + j] = 0.0
+                coupling[i * width + j] = 0.0
+        for i in bore.held:
+            for j in range(n):
+                sides[i * width + j] = pressure
+
+
+@inner_kernel
 def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
     """Copy a solution of the ring solver into pressure `index`, with differences and slopes."""
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
@@ -137,7 +169,22 @@ def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
 
 
 @inner_kernel
-def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
+def _drag(film: TiltedFilm, bore: Bore) -> float:
+    """Integral of H dp/dphi over the bearing part of the pressure; of a plain bore the force tells it."""
+    total = 0.0
+    if bore is not None:
+        m = film.circle.shape[2]
+        for j in range(film.face.shape[1]):
+            above, gap, part = film.column[ABSOLUTE, j], film.face[GAP, j], 0.0
+            for i in range(m):
+                fore = i + 1 if i + 1 < m else 0
+                part += bore.inside[1, i] * gap[i] * (max(above[fore], 0.0) - max(above[i], 0.0))
+            total += film.weights[j] * part
+    return total
+
+
+@inner_kernel
+def _integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> None:
     """Wrench of the bearing part of the pressure, largest pressure, shear integral."""
     n, m = film.face.shape[1], film.circle.shape[2]
     cell = 2.0 * np.pi / m
@@ -160,6 +207,7 @@ def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
         result[1] -= across
         result[2] += film.nodes[j] * across
         result[3] -= film.nodes[j] * along
+    metric = land(bore, film.rings[0])
     for j in range(n + 2):
         t = film.column[OPEN, j]
         total = 0.0
@@ -168,6 +216,7 @@ def _integrate(film: TiltedFilm, ambient: float, result: Floats) -> None:
         shear += film.weights[j] * cell * total
     result[PEAK] = _peak(film, ambient)
     result[SHEAR] = shear
+    result[DRAG] = _drag(film, bore)
 
 
 @inner_kernel
@@ -214,10 +263,12 @@ def _peak(film: TiltedFilm, ambient: float) -> float:
 @stage
 def solve_pressure(
     film: TiltedFilm,
+    bore: Bore,
     q: Floats,
     v: Floats,
     speed: float,
     ambient: float,
+    feed: float,
     sigma: float,
     reynolds: float,
     ruptures: int,
@@ -229,12 +280,16 @@ def solve_pressure(
     ----------
     film : TiltedFilm
         Work space; on return pressure 0, the factor and all fields.
+    bore : Bore
+        The bore.
     q, v : ndarray, shape (4,)
         Position and velocity (1/s) over the clearance, tilts times b/2 over the clearance.
     speed : float
         Angular speed, rad/s.
     ambient : float
         Ambient pressure over 6 eta R^2 / C^2, 1/s.
+    feed : float
+        Pressure in the grooves, as `ambient`.
     sigma : float
         Roughness over clearance.
     reynolds : float
@@ -252,7 +307,7 @@ def solve_pressure(
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
-    _shape_gap(film, q, sigma)
+    _shape_gap(film, bore, q, sigma)
     if reynolds > 0.0:
         _make_turbulent(film, reynolds)
     release(film)
@@ -261,6 +316,7 @@ def solve_pressure(
         _assemble(film, v, speed)
         if ruptures != 0:
             hold(film, ambient)
+        _feed(film, bore, feed - ambient)
         if not factorise(b, film.coupling, w, wt, film.block, film.row, m, n, width):
             status = NO_SOLUTION
             break
@@ -270,7 +326,7 @@ def solve_pressure(
             status = OK
             break
     if status == OK:
-        _integrate(film, ambient, result)
+        _integrate(film, bore, ambient, result)
         if reynolds > 0.0:
-            result[SHEAR] = _turbulent_shear(film, reynolds)
+            result[SHEAR] = _turbulent_shear(film, bore, reynolds)
     return status

@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.bore.bore import Bore, fill_gap_change
 from bearing_fmu.films.tilted.reynolds import unfold
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
@@ -27,8 +28,17 @@ Floats = NDArray[np.float64]
 TANGENT, BY_GAP, BY_METRIC = 0, 1, 2
 
 
+@inner_kernel
+def _rest(film: TiltedFilm, bore: Bore) -> None:
+    """No adjoint pressure where the pressure is given."""
+    if bore is not None:
+        size = film.sides.shape[0] // film.circle.shape[2]
+        for i in bore.held:
+            film.sides[i * size : (i + 1) * size] = 0.0
+
+
 @stage
-def _solve_adjoints(film: TiltedFilm) -> None:
+def _solve_adjoints(film: TiltedFilm, bore: Bore) -> None:
     """Adjoint pressures 1-4, for the four components of the wrench."""
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
@@ -52,6 +62,7 @@ def _solve_adjoints(film: TiltedFilm) -> None:
             sides[at + width] = across
             sides[at + 2 * width] = -z * across
             sides[at + 3 * width] = z * along
+    _rest(film, bore)
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
     substitute(b, film.coupling, w, wt, sides, film.row, m, n, width, 4)
     for k in range(4):
@@ -89,21 +100,18 @@ def _prepare(film: TiltedFilm, speed: float) -> None:
 
 
 @inner_kernel
-def _gap_change(film: TiltedFilm, q: Floats, k: int, side: int, z: float, change: Floats) -> None:
+def _gap_change(film: TiltedFilm, bore: Bore, q: Floats, k: int, side: int, z: float, change: Floats) -> None:
     """dH/dq_k at one z, with the motion of the grid."""
-    ring = film.rings[side]
-    cos, sin, motion = ring[COS], ring[SIN], ring[MOTION + k]
     ex = q[0] + q[3] * z
     ey = q[1] - q[2] * z
     # -dH/dq_k at a fixed angle is cos, sin, -z sin, z cos.
     fc = -1.0 if k == 0 else (-z if k == 3 else 0.0)
     fs = -1.0 if k == 1 else (z if k == 2 else 0.0)
-    for i in range(change.shape[0]):
-        change[i] = fc * cos[i] + fs * sin[i] + (ex * sin[i] - ey * cos[i]) * motion[i]
+    fill_gap_change(bore, side, ex, ey, fc, fs, k, film.rings[side], change)
 
 
 @inner_kernel
-def _residual_tangent(film: TiltedFilm, q: Floats, v: Floats, k: int) -> None:
+def _residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
     """Tangent of the residual along q_k."""
     n, m = film.face.shape[1], film.circle.shape[2]
     tangent, by_gap, by_metric = film.forcing[TANGENT], film.forcing[BY_GAP], film.forcing[BY_METRIC]
@@ -116,7 +124,7 @@ def _residual_tangent(film: TiltedFilm, q: Floats, v: Floats, k: int) -> None:
         dsin[i] = cos[i] * motion[i] - cos[back] * motion[back]
     along, around = film.rings[0, STRETCHING + k], film.rings[1, STRETCHING + k]
     for j in range(n + 2):
-        _gap_change(film, q, k, 0, film.nodes[j], change)
+        _gap_change(film, bore, q, k, 0, film.nodes[j], change)
         gap, metric, out = by_gap[2 * n + j], by_metric[2 * n + j], tangent[2 * n + j]
         for i in range(m):
             out[i] = gap[i] * change[i] + metric[i] * along[i]
@@ -126,7 +134,7 @@ def _residual_tangent(film: TiltedFilm, q: Floats, v: Floats, k: int) -> None:
             gap, metric, out = by_gap[j], by_metric[j], tangent[j]
             for i in range(m):
                 out[i] = gap[i] * change[i] + metric[i] * (uy * dcos[i] - ux * dsin[i])
-            _gap_change(film, q, k, 1, film.nodes[j], change)
+            _gap_change(film, bore, q, k, 1, film.nodes[j], change)
             gap, metric, out = by_gap[n + j], by_metric[n + j], tangent[n + j]
             for i in range(m):
                 out[i] = gap[i] * change[i] + metric[i] * around[i]
@@ -209,12 +217,12 @@ def _damping(film: TiltedFilm, result: Floats) -> None:
 
 
 @stage
-def add_tangent(film: TiltedFilm, q: Floats, v: Floats, speed: float, result: Floats) -> None:
+def add_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, speed: float, result: Floats) -> None:
     """Complete `result` of `solve_pressure` by dF/dq and dF/dv, each (4, 4) row by row."""
-    _solve_adjoints(film)
+    _solve_adjoints(film, bore)
     _prepare(film, speed)
     for k in range(4):
-        _residual_tangent(film, q, v, k)
+        _residual_tangent(film, bore, q, v, k)
         _contract(film, k, result)
     _add_grid_motion(film, result)
     _damping(film, result)

@@ -37,7 +37,7 @@ class TiltedFilm(NamedTuple):
     held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     # from here on work space
     rings: Floats  #: (2, RING_ROWS, m) columns and faces on the graded grid
-    grading: Floats  #: (6, 4) map parameter, its derivative, work space
+    grading: Floats  #: (7, 4) map parameter, its derivative, work space
     column: Floats  #: (FIELDS, n + 2, m') at the columns
     face: Floats  #: (FIELDS, n, m') between the columns
     nodal: Floats  #: (4, n, m') bearing part of the pressure and its derivatives
@@ -55,7 +55,7 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
     width, length = padded(rows), padded(columns)
     return {
         "rings": np.zeros((2, RING_ROWS, columns)),
-        "grading": np.zeros((6, 4)),
+        "grading": np.zeros((7, 4)),
         "column": np.zeros((FIELDS, rows + 2, length)),
         "face": np.zeros((FIELDS, rows, length)),
         "nodal": np.zeros((4, rows, length)),

@@ -9,8 +9,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from fmus import port
 from fmus.build.promises import AFFINE, ISOTROPIC
+from fmus.port.bore import PLAIN
 from orchestrator.errors import EquilibriumError
+from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import RESPONSE, System
 
 Array = NDArray[np.float64]
@@ -94,6 +97,7 @@ def aligned_positions(system: System, forces: Array, clearances: Array) -> Array
     isotropic, affine = (
         np.array([word in unit.file.promises for unit in system.bearings]) for word in (ISOTROPIC, AFFINE)
     )
+    isotropic &= [_is_plain(unit) for unit in system.bearings]
     if affine.all():
         return _affine_positions(system, forces)
     loads, aim = np.hypot(*forces.T), np.arctan2(forces[:, 1], forces[:, 0])
@@ -134,6 +138,12 @@ def aligned_positions(system: System, forces: Array, clearances: Array) -> Array
     positions[:, 0] = share * clearances * np.sin(angle)
     positions[:, 1] = -share * clearances * np.cos(angle)
     return np.where(affine[:, None], _affine_positions(system, forces), positions)
+
+
+def _is_plain(unit: Unit) -> bool:
+    """Whether a bearing has no other bore than the plain one, as far as it says."""
+    bore = port.BEARING_KEYS["bore"]
+    return bore not in unit.file.variables or unit.get_string(bore) == PLAIN
 
 
 def _affine_positions(system: System, forces: Array) -> Array:
