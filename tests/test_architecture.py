@@ -54,7 +54,7 @@ OF_PHYSICS_FOR_THE_MASTER = {
     "rotor_fmu.linear.analysis",
 }
 STUDIES_OF_THE_TRAIN = ("orchestrator.study.paper.calibration", "orchestrator.study.paper.experiments")
-OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.port.variable"}
+OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.port.bore", "fmus.port.variable"}
 OF_FMUS_FOR_RECIPES = OF_FMUS_FOR_PHYSICS | {"fmus.build.recipe", "fmus.build.promises"}
 OF_FMUS_FOR_THE_MASTER = {
     "fmus.port",

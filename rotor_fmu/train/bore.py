@@ -56,7 +56,7 @@ def _rows(value: Any, keys: dict[str, float | None]) -> Rows | None:
     """
     if value is None:
         return None
-    shape = "a list of tables {" + ", ".join(keys) + "}"
+    shape = f"a list of tables with {', '.join(keys)}"
     if not isinstance(value, list | tuple) or not all(isinstance(row, dict) for row in value):
         raise PydanticCustomError("bore", "{shape}", {"shape": shape})
     rows = []

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, fill_gap, gap_turn, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
+from bearing_fmu.films.aligned.grooves import hold_grooves, links, pressure_drag
 from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.tilted.reynolds import summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
@@ -73,44 +74,11 @@ def _turbulent_shear(film: AlignedFilm, bore: Bore, reynolds: float) -> float:
 
 
 @inner_kernel
-def _links(film: AlignedFilm, bore: Bore) -> Floats:
-    """What couples neighbouring columns: the conductances, but not next to columns of given pressure."""
-    along = film.fields[1, CONDUCTANCE]
-    if bore is None:
-        return along
-    links, m = film.forcing[7], film.circle.shape[2]
-    links[:] = along
-    for i in bore.held:
-        links[i] = 0.0
-        links[i - 1 if i > 0 else m - 1] = 0.0
-    return links
-
-
-@inner_kernel
-def _feed(film: AlignedFilm, bore: Bore, pressure: float) -> None:
-    """Right-hand sides for the feed pressure, over the ambient one, in the columns of grooves."""
-    if bore is not None:
-        m = film.circle.shape[2]
-        along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
-        for i in bore.held:
-            back = i - 1 if i > 0 else m - 1
-            fore = i + 1 if i + 1 < m else 0
-            for r in range(film.values.shape[0]):
-                film.modal[0, back, r] += along[back] * pressure * film.drive[r]
-                film.modal[0, fore, r] += along[i] * pressure * film.drive[r]
-        for i in bore.held:
-            back = i - 1 if i > 0 else m - 1
-            for r in range(film.values.shape[0]):
-                diagonal = film.values[r] * axial[i] + along[i] + along[back]
-                film.modal[0, i, r] = diagonal * pressure * film.drive[r]
-
-
-@inner_kernel
 def _factorise(film: AlignedFilm, bore: Bore) -> bool:
     """Eliminate each mode's columns as `ring.factorise` does, all modes abreast."""
     m, modes = film.circle.shape[2], film.values.shape[0]
     along, axial = film.fields[1, CONDUCTANCE], film.fields[0, CONDUCTANCE]
-    link = _links(film, bore)
+    link = links(film, bore)
     s, v, last = film.forcing[0], film.forcing[1], film.forcing[2]
     for r in range(modes):
         last[r] = film.values[r] * axial[m - 1] + along[m - 1] + along[m - 2]
@@ -140,7 +108,7 @@ def _factorise(film: AlignedFilm, bore: Bore) -> bool:
 def _substitute(film: AlignedFilm, bore: Bore, first: int, sides: int) -> None:
     """Solve in place for the modal pressures from `first`, all modes and sides abreast."""
     m, modes = film.circle.shape[2], film.values.shape[0]
-    link = _links(film, bore)
+    link = links(film, bore)
     for i in range(m - 1):
         for k in range(first, first + sides):
             for r in range(modes):
@@ -161,24 +129,6 @@ def _substitute(film: AlignedFilm, bore: Bore, first: int, sides: int) -> None:
                 film.modal[k, i, r] = x
 
 
-@inner_kernel
-def _drag(film: AlignedFilm, bore: Bore, ambient: float) -> float:
-    """Integral of H dp/dphi over the bearing part of the pressure; of a plain bore the force tells it."""
-    total = 0.0
-    if bore is not None:
-        m, gap, above = film.circle.shape[2], film.fields[1, GAP], film.forcing[0]
-        for j in range(film.weights.shape[0]):
-            for i in range(m):
-                above[i] = ambient
-                for r in range(film.values.shape[0]):
-                    above[i] += film.shapes[j, r] * film.modal[0, i, r]
-                above[i] = max(above[i], 0.0)
-            for i in range(m):
-                fore = i + 1 if i + 1 < m else 0
-                total += film.weights[j] * bore.inside[1, i] * gap[i] * (above[fore] - above[i])
-    return total
-
-
 @stage
 def _solve_pressure(
     film: AlignedFilm, bore: Bore, speed: float, ambient: float, feed: float, result: Floats
@@ -194,7 +144,7 @@ def _solve_pressure(
         drive = -(speed * (t[i] - t[back]) + 2.0 * t1[i] * squeeze[i])
         for r in range(film.values.shape[0]):
             film.modal[0, i, r] = film.drive[r] * drive
-    _feed(film, bore, feed - ambient)
+    hold_grooves(film, bore, feed - ambient)
     _substitute(film, bore, 0, 1)
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
     above = film.forcing[0]
@@ -211,7 +161,7 @@ def _solve_pressure(
             across += part[i] * metric[i] * sin[i]
         result[0] -= along * film.weights[j] * cell
         result[1] -= across * film.weights[j] * cell
-    result[DRAG] = _drag(film, bore, ambient)
+    result[DRAG] = pressure_drag(film, bore, ambient)
     shear = 0.0
     metric = land(bore, film.rings[0])
     for i in range(m):

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
+from bearing_fmu.films.tilted.grooves import hold_grooves, pressure_drag
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
@@ -127,28 +128,6 @@ def _assemble(film: TiltedFilm, v: Floats, speed: float) -> None:
 
 
 @inner_kernel
-def _feed(film: TiltedFilm, bore: Bore, pressure: float) -> None:
-    """Hold the columns in grooves at the feed pressure, over the ambient one."""
-    if bore is not None:
-        n, m = film.face.shape[1], film.circle.shape[2]
-        width = film.coupling.shape[0] // m
-        b, coupling, sides = film.blocks[0], film.coupling, film.sides
-        for i in bore.held:
-            back = i - 1 if i > 0 else m - 1
-            fore = i + 1 if i + 1 < m else 0
-            b[i * n * width : (i + 1) * n * width] = 0.0
-            for j in range(n):
-                b[(i * n + j) * width + j] = 1.0
-                sides[back * width + j] += coupling[back * width + j] * pressure
-                sides[fore * width + j] += coupling[i * width + j] * pressure
-                coupling[back * width + j] = 0.0
-                coupling[i * width + j] = 0.0
-        for i in bore.held:
-            for j in range(n):
-                sides[i * width + j] = pressure
-
-
-@inner_kernel
 def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
     """Copy a solution of the ring solver into pressure `index`, with differences and slopes."""
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
@@ -166,21 +145,6 @@ def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
         stack[at : at + length] = 0.0
         for i in range(0, length, LANES):
             add_rows(stack, at + i, film.slopes, k * n, 1, stack, i, length, n)
-
-
-@inner_kernel
-def _drag(film: TiltedFilm, bore: Bore) -> float:
-    """Integral of H dp/dphi over the bearing part of the pressure; of a plain bore the force tells it."""
-    total = 0.0
-    if bore is not None:
-        m = film.circle.shape[2]
-        for j in range(film.face.shape[1]):
-            above, gap, part = film.column[ABSOLUTE, j], film.face[GAP, j], 0.0
-            for i in range(m):
-                fore = i + 1 if i + 1 < m else 0
-                part += bore.inside[1, i] * gap[i] * (max(above[fore], 0.0) - max(above[i], 0.0))
-            total += film.weights[j] * part
-    return total
 
 
 @inner_kernel
@@ -216,7 +180,7 @@ def _integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> 
         shear += film.weights[j] * cell * total
     result[PEAK] = _peak(film, ambient)
     result[SHEAR] = shear
-    result[DRAG] = _drag(film, bore)
+    result[DRAG] = pressure_drag(film, bore)
 
 
 @inner_kernel
@@ -316,7 +280,7 @@ def solve_pressure(
         _assemble(film, v, speed)
         if ruptures != 0:
             hold(film, ambient)
-        _feed(film, bore, feed - ambient)
+        hold_grooves(film, bore, feed - ambient)
         if not factorise(b, film.coupling, w, wt, film.block, film.row, m, n, width):
             status = NO_SOLUTION
             break

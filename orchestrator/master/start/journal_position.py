@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from fmus import port
 from fmus.build.promises import AFFINE, ISOTROPIC
-from fmus.port.bore import PLAIN
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import RESPONSE, System
@@ -143,7 +142,7 @@ def aligned_positions(system: System, forces: Array, clearances: Array) -> Array
 def _is_plain(unit: Unit) -> bool:
     """Whether a bearing has no other bore than the plain one, as far as it says."""
     bore = port.BEARING_KEYS["bore"]
-    return bore not in unit.file.variables or unit.get_string(bore) == PLAIN
+    return bore not in unit.file.variables or unit.get_string(bore) == port.default_word("bore")
 
 
 def _affine_positions(system: System, forces: Array) -> Array:

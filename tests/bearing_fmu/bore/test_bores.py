@@ -35,18 +35,16 @@ def test_one_arc_of_a_full_turn_is_the_plain_bore(depth):
     whole, known = (
         make_film(depth, plain(0.7, bore=to_text(bore), columns=96, **ROUGH)) for bore in (WHOLE, ())
     )
-    for q in ([0.3, -0.5, 0.0, 0.0], [0.2, -0.985, 0.0, 0.0]):
+    for q in ([0.3, -0.5, 0.0, 0.0], [0.2, -0.93, 0.0, 0.0]):
         here, there = (respond(film, q, [0.1, 0.05, 0.0, 0.0]) for film in (whole, known))
-        for found, expected in (
-            (here.wrench[:2], there.wrench[:2]),
-            (here.stiffness[:2, :2], there.stiffness[:2, :2]),
-            (here.damping[:2, :2], there.damping[:2, :2]),
-        ):
+        for part in ("wrench", "stiffness", "damping"):
+            found, expected = (np.atleast_2d(getattr(r, part))[:2, :2] for r in (here, there))
             assert np.linalg.norm(found - expected) < 3e-3 * np.linalg.norm(expected)
-        assert here.contact_force == pytest.approx(there.contact_force, rel=1e-5)
-        np.testing.assert_allclose(here.contact_wrench, there.contact_wrench, rtol=1e-5)
         assert here.friction_power == pytest.approx(there.friction_power, rel=1e-3)
-        assert (here.h_min, here.eccentricity) == pytest.approx((there.h_min, there.eccentricity))
+    here, there = (respond(film, [0.2, -0.985, 0.0, 0.0]) for film in (whole, known))
+    assert here.contact_force == pytest.approx(there.contact_force, rel=1e-5)
+    np.testing.assert_allclose(here.contact_wrench, there.contact_wrench, rtol=1e-5)
+    assert (here.h_min, here.eccentricity) == pytest.approx((there.h_min, there.eccentricity))
 
 
 def states(bore):

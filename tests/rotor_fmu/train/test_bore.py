@@ -40,18 +40,18 @@ def degrees(bore):
         ('bore = "offset-halves"\npreload = 0.4', [(10, 170, 180), (190, 350, 360)]),
         ('grooves = [{at = "90 deg", width = "30 deg"}]', [(-255, 75, 180)]),
         (
-            'bore = "three-lobe"\npreload = 0.6\noffset = 0.6\nfirst = "30 deg"\n'
+            'bore = "three-lobe"\npreload = 0.6\nfirst = "30 deg"\n'
             'grooves = [{at = "30 deg", width = "10 deg"}]',
-            [(35, 150, 102), (150, 270, 222), (270, 385, 342)],
+            [(35, 150, 90), (150, 270, 210), (270, 385, 330)],
         ),
         ('arcs = [{start = "200 deg", end = "340 deg"}]', [(200, 340, 270)]),
-        ("arcs = [{start = 1.0, end = 3.0, preload = 0.2, towards = 1.5}]", None),
+        ("arcs = [{start = 4.0, end = 5.5, preload = 0.2, towards = 4.5}]", None),
     ],
 )
 def test_words_and_figures(with_bore, lines, expected):
     seat = with_bore(lines).bearings[0]
     if expected is None:
-        assert from_text(seat.bore) == (Arc(1.0, 3.0, 0.2, 1.5),)
+        assert from_text(seat.bore) == (Arc(4.0, 5.5, 0.2, 4.5),)
     else:
         assert degrees(from_text(seat.bore)) == expected
 
