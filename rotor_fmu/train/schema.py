@@ -24,7 +24,7 @@ from pydantic_core import PydanticCustomError
 from fmus import port
 from rotor_fmu.train import bore as bores
 from rotor_fmu.train.coefficients import Matrix, matrix
-from rotor_fmu.train.units import in_si
+from rotor_fmu.train.units import converted
 
 Name = Annotated[
     str,
@@ -81,16 +81,9 @@ class _Entry(BaseModel):
         assert info.field_name is not None
         unit = unit_of(cls, info.field_name)
         try:
-            return _converted(value, unit) if unit else value
+            return converted(value, unit) if unit else value
         except ValueError as error:
             raise PydanticCustomError("unit", "{allowed}", {"allowed": str(error)}) from None
-
-
-def _converted(value: Any, unit: str) -> Any:
-    """A value with the texts in it, also in lists of lists, as numbers in a unit."""
-    if isinstance(value, list):
-        return [_converted(item, unit) for item in value]
-    return in_si(value, unit) if isinstance(value, str) else value
 
 
 def unit_of(model: type[BaseModel], name: str) -> str:

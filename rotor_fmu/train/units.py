@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from decimal import Decimal
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pint import Unit, UnitRegistry
@@ -77,3 +77,10 @@ def _registry() -> UnitRegistry:
     import pint  # a second, which only those wait for who give units
 
     return pint.UnitRegistry(non_int_type=Decimal)
+
+
+def converted(value: Any, unit: str) -> Any:
+    """A value with the texts in it, also in lists of lists, as numbers in a unit."""
+    if isinstance(value, list):
+        return [converted(item, unit) for item in value]
+    return in_si(value, unit) if isinstance(value, str) else value
