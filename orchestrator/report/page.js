@@ -60,7 +60,7 @@ function draw(panel, content) {
   const figure = opened(content);
   const scene = figure.layout.scene;
   if (scene) {
-    const back = Math.max(1, 1.9 * plot.clientHeight / plot.clientWidth); // a narrow window sees less along the shaft
+    const back = Math.max(1, 2.1 * plot.clientHeight / plot.clientWidth); // a narrow window sees less along the shaft
     for (const axis of ["x", "y", "z"]) scene.camera.eye[axis] *= back;
   }
   const config = { responsive: true, displaylogo: false, displayModeBar: "hover", modeBarButtonsToRemove: ["lasso2d", "select2d"] };

@@ -88,7 +88,9 @@ class _Film:
             "line": {
                 "width": 9, "color": packed(self.stress[k]), "colorscale": "Viridis",
                 "cmin": 0, "cmax": stress,
-                "colorbar": {"title": {"text": "N/mm²"}, "thickness": 12, "len": 0.7},
+                "colorbar": {
+                    "title": {"text": "N/mm²"}, "thickness": 10, "len": 0.6, "orientation": "h", "y": 0.0,
+                },
             },
         }  # fmt: skip
         axis = _line(self.z[[0, -1]], zero[[0, -1]], zero[[0, -1]]) | {
