@@ -76,7 +76,7 @@ def test_a_signal_ends_a_run_that_can_go_on(number, outcome, whole, small_fmus, 
     if partial.exists():  # absent when the signal came before the second record
         assert f"{outcome.value} at t = {reached:.6g} s" in (partial / "PARTIAL.txt").read_text()
         assert read_record(partial)["time"].values[-1] == reached
-    assert call("resume", out).exit_code == 0
+    assert call("resume", out, "--fmus", small_fmus).exit_code == 0
     assert read_record(out).identical(whole)
 
 

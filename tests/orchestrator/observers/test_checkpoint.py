@@ -164,8 +164,8 @@ def test_kill_at_random_moments_of_the_small_train(train_fmus, tmp_path):
         process.send_signal(signal.SIGKILL)
         process.wait()
         if kill < 2:
-            process = command("resume", out)
-    assert call("resume", out).exit_code == 0
+            process = command("resume", out, "--fmus", train_fmus)
+    assert call("resume", out, "--fmus", train_fmus).exit_code == 0
     assert read_record(out).identical(read_record(tmp_path / "whole"))
     assert not saved.parent.exists()
     assert Outcome.FINISHED.value == read_record(out).attrs["status"]
