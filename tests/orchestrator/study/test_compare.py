@@ -30,7 +30,7 @@ unbalance = 0.05
 time = 0.04
 """
 DEPTHS = ("v1", "v2", "v3")
-RUN = ["record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
+RUN = [MANIFEST, "record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]
 FIGURES = [
     "all-bearings.png",
     "deformed-train.png",
