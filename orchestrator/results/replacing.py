@@ -87,6 +87,8 @@ def replace(fresh: Path, folder: Path) -> None:
         When a file that is not of this program is in the place of a result.
     """
     old, new = manifest.read(folder), manifest.read(fresh)
+    if not (fresh / PARTIAL).exists() and PARTIAL in new and manifest.is_ours(folder, PARTIAL, new):
+        shutil.copyfile(folder / PARTIAL, fresh / PARTIAL)  # its reason outlives the mark
     coming = [name for name in sorted(new) if (fresh / name).exists()]  # others have gone before a kill
     for name in (*coming, PARTIAL):
         if _taken(folder, name, old):

@@ -200,3 +200,12 @@ def test_a_folder_that_could_never_be_made(how, tmp_path):
 def test_the_working_folder_has_a_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert named(Path()) == tmp_path and named(Path("out")) == Path("out")
+
+
+def test_a_partial_result_keeps_its_reason_when_figures_are_added(tmp_path):
+    out = tmp_path / "out"
+    with result_folder(out) as fresh:
+        (fresh / PARTIAL).write_text("the gap closed")
+    with result_folder(out, adding=True) as fresh:
+        (fresh / "figure.png").write_text("x")
+    assert (out / PARTIAL).read_text() == "the gap closed" and (out / "figure.png").exists()
