@@ -72,3 +72,43 @@ def port_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
         return write_outputs(bore, scales, inputs, state, result, contact, draft, out)
 
     return variant(name, evaluate)
+
+
+def one_kernel(name: str, solve: Callable[..., int]) -> Callable[..., int]:
+    """Make the kernel of the port for a film that solves its solid contact itself.
+
+    Parameters
+    ----------
+    name : str
+        Of the film.
+    solve : kernel
+        As in `port_kernel`, ``solve(film, scales, q, v, speed, result, contact)``.
+
+    Returns
+    -------
+    kernel
+        As that of `port_kernel`.
+    """
+
+    def evaluate(
+        inputs: Floats,
+        offset: Floats,
+        out: Floats,
+        constants: Constants,
+        table: Floats,
+        bore: Bore,
+        film: Any,
+        work: Floats,
+    ) -> int:
+        scales = constants[0]
+        state, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
+        status = relative_state(bore, scales, inputs, offset, state)
+        if status != OK:
+            return status
+        contact[:] = 0.0
+        status = solve(film, scales, state[4:8], state[8:12], inputs[16], result, contact)
+        if status != OK:
+            return status
+        return write_outputs(bore, scales, inputs, state, result, contact, draft, out)
+
+    return variant(name, evaluate)

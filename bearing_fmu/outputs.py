@@ -72,6 +72,20 @@ def _turning(bore: Bore, scales: Scales, state: Floats, result: Floats) -> float
 
 
 @inner_kernel
+def _forget_tilts(result: Floats, contact: Floats) -> None:
+    """Moments and what depends on tilts, where a solver of tilted films serves an aligned one."""
+    for i in range(4):
+        if i >= 2:
+            result[WRENCH + i] = 0.0
+            contact[FORCE + i] = 0.0
+        for j in range(4):
+            if i >= 2 or j >= 2:
+                result[STIFFNESS + 4 * i + j] = 0.0
+                result[DAMPING + 4 * i + j] = 0.0
+                contact[FORCE_SLOPE + 4 * i + j] = 0.0
+
+
+@inner_kernel
 def write_outputs(
     bore: Bore,
     scales: Scales,
@@ -102,6 +116,8 @@ def write_outputs(
     int
         A code of `FilmStatus`.
     """
+    if scales.aligned != 0:
+        _forget_tilts(result, contact)
     half = 0.5 * scales.width
     slope = scales.force / scales.clearance
     speed = inputs[16]

@@ -50,6 +50,9 @@ class BearingParameters:
         Pressure in the grooves, over the cavity pressure, Pa.
     bore : str
         Its arcs, see `fmus.port.bore.from_text`.
+    layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
+        Of the bearing's soft layer: thickness, m, 0 for a rigid bore, Young's modulus, Pa, Poisson's ratio,
+        and hardness, Pa, see `bearing_fmu.contact.layer`.
 
     Raises
     ------
@@ -72,6 +75,10 @@ class BearingParameters:
     density: float = port.default_of("density")
     feed_pressure: float = 0.0
     bore: str = PLAIN
+    layer_thickness: float = port.default_of("layer_thickness")
+    layer_modulus: float = port.default_of("layer_modulus")
+    layer_poisson: float = port.default_of("layer_poisson")
+    layer_hardness: float = port.default_of("layer_hardness")
 
     def __post_init__(self) -> None:
         for key in port.BEARING_KEYS:
@@ -82,10 +89,26 @@ class BearingParameters:
             from_text(self.bore)
         except ValueError as error:
             raise ValueError(f"bearing parameter bore: {error}") from None
+        if self.has_layer:
+            self._check_layer()
         if self.roughness > _ROUGHEST * self.clearance:
             raise ValueError(
                 f"bearing parameter roughness = {self.roughness!r}: must be at most clearance / 10, "
                 f"here {_ROUGHEST * self.clearance:g} m"
+            )
+
+    def _check_layer(self) -> None:
+        if not self.layer_poisson < 0.5:
+            raise ValueError(f"bearing parameter layer_poisson = {self.layer_poisson!r}: must be below 0.5")
+        if not self.has_contact:
+            raise ValueError(
+                f"bearing parameter layer_thickness = {self.layer_thickness!r}: must be 0 without roughness "
+                "and contact modulus"
+            )
+        if self.is_turbulent or self.boundary != "guembel" or self.bore != PLAIN:
+            raise ValueError(
+                f"bearing parameter layer_thickness = {self.layer_thickness!r}: must be 0 in turbulent films "
+                "or bores that are not plain, and with Reynolds' condition"
             )
 
     @classmethod
@@ -113,6 +136,17 @@ class BearingParameters:
     def is_turbulent(self) -> bool:
         """Whether flow and friction go by the local Reynolds number."""
         return self.turbulence != "laminar"
+
+    @property
+    def has_layer(self) -> bool:
+        """Whether the bore gives way."""
+        return self.layer_thickness > 0.0
+
+    @property
+    def layer_compliance(self) -> float:
+        """How far the layer recedes under a pressure, m/Pa."""
+        nu = self.layer_poisson
+        return (1.0 + nu) * (1.0 - 2.0 * nu) / (1.0 - nu) * self.layer_thickness / self.layer_modulus
 
     @property
     def has_contact(self) -> bool:

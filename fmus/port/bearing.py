@@ -122,6 +122,15 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         PLAIN,
         kind="String",
     ),
+    *(
+        Variable(f"layer.{name}", "parameter", unit, text, start, minimum=0.0, nominal=nominal, above=above)
+        for name, unit, text, start, nominal, above in (
+            ("thickness", "m", "thickness of the bearing's soft layer; 0: rigid", 0.0, 1e-3, False),
+            ("modulus", "Pa", "Young's modulus of the layer", 5e10, 1e10, True),
+            ("poisson", "", "Poisson's ratio of the layer, below 0.5", 0.35, 0.1, False),
+            ("hardness", "Pa", "hardness of the layer, which bounds the asperity pressure", 2e8, 1e8, True),
+        )
+    ),
 )
 
 _AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
@@ -168,6 +177,10 @@ BEARING_KEYS: dict[str, str] = {
     "density": "density",
     "feed_pressure": "feed_pressure",
     "bore": "bore",
+    "layer_thickness": "layer.thickness",
+    "layer_modulus": "layer.modulus",
+    "layer_poisson": "layer.poisson",
+    "layer_hardness": "layer.hardness",
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import xarray as xr
 
@@ -49,9 +50,7 @@ def taylor_limit(seat: BearingSeat) -> float:
     return 41.1 * (0.5 * seat.diameter / seat.clearance) ** 0.5
 
 
-def regime_coordinates(
-    scenario: Scenario, train: Train
-) -> dict[str, tuple[str, list[float], dict[str, str]]]:
+def regime_coordinates(scenario: Scenario, train: Train) -> dict[str, Any]:
     """Coordinates of the record from which `regimes` reads; NaN where there is no film of bladeloss."""
     seats = train.bearings
     films = [seat.has_film and scenario.depth_of(seat.name) in depths.films() for seat in seats]

@@ -93,7 +93,7 @@ def _word(key: str) -> Any:
             return value
         raise PydanticCustomError("depth", "no choice", {"allowed": variable.choices})
 
-    return Annotated[str, PlainValidator(check)]
+    return PlainValidator(check)
 
 
 def _whole(key: str) -> Any:
@@ -102,7 +102,8 @@ def _whole(key: str) -> Any:
     return Field(int(variable.start or 0), ge=variable.minimum, le=variable.maximum)
 
 
-_Boundary, _Turbulence = _word("boundary"), _word("turbulence")
+_Boundary = Annotated[str, _word("boundary")]
+_Turbulence = Annotated[str, _word("turbulence")]
 
 
 class FilmSettings(Model):

@@ -213,6 +213,10 @@ class BearingEntry(Placed):
     first: float = angle(0.0)
     grooves: Annotated[bores.Rows | None, BeforeValidator(bores.groove_rows)] = None
     arcs: Annotated[bores.Rows | None, BeforeValidator(bores.arc_rows)] = None
+    layer_thickness: float = within(0.0, 0.1, "m; did you give mm?", 0.0)
+    layer_modulus: float = positive(1e12, _PRESSURE, port.default_of("layer_modulus"))
+    layer_poisson: float = Field(port.default_of("layer_poisson"), ge=0.0, lt=0.5)
+    layer_hardness: float = positive(1e11, _PRESSURE, port.default_of("layer_hardness"))
     load: float | None = within(-1e9, 1e9, "N", None)
     residual_tilt_x: float = within(-0.01, 0.01, "rad", 0.0)
     residual_tilt_y: float = within(-0.01, 0.01, "rad", 0.0)

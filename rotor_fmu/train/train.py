@@ -90,6 +90,9 @@ class BearingSeat:
         Pressure in the grooves, over the cavity [Pa].
     bore : str
         Its arcs, see `fmus.port.bore.from_text`.
+    layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
+        Soft layer of the bore: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio,
+        hardness [Pa].
     load : float or None
         Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
@@ -117,6 +120,10 @@ class BearingSeat:
     density: float = port.default_of("density")
     feed_pressure: float = 0.0
     bore: str = PLAIN
+    layer_thickness: float = port.default_of("layer_thickness")
+    layer_modulus: float = port.default_of("layer_modulus")
+    layer_poisson: float = port.default_of("layer_poisson")
+    layer_hardness: float = port.default_of("layer_hardness")
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0

@@ -21,7 +21,7 @@ def test_every_variable_stands_in_the_tables(small_train):
 
 
 def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
-    bare = {"eccentricity", "sommerfeld", "contact.friction"}
+    bare = {"eccentricity", "sommerfeld", "contact.friction", "layer.poisson"}
     for variable in (*port.BEARING, *port.rotor(["b"], ["w"], 2)):
         assert variable.description
         if variable.kind == "Real" and not variable.unit:

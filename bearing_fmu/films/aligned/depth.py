@@ -15,6 +15,7 @@ from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.aligned.aligned import solve_aligned
 from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
+from bearing_fmu.films.tilted.depth import LAYERED
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
@@ -43,10 +44,15 @@ def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFi
 
 SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare, bores=True)
 
+ON_LAYER = replace(LAYERED, name="aligned", tilts=False)
+"""On a soft layer, which the pressure bends along the axis, too."""
+
 RUPTURING = replace(TILTED, name="aligned", tilts=False, boundaries=("reynolds",))
 """With Reynolds' condition, which holds single nodes: the axial modes do not part, and V1's solver serves."""
 
 
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
+    if float(values.get("layer.thickness", 0.0)) > 0.0:
+        return Film.of(ON_LAYER, values)
     return Film.of(SOLVER if values.get("film.boundary", "guembel") == "guembel" else RUPTURING, values)

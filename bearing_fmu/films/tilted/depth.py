@@ -9,16 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore
-from bearing_fmu.contact.contact import add_tilted
-from bearing_fmu.evaluate import port_kernel
+from bearing_fmu.contact.contact import add_tilted, sliding_sense
+from bearing_fmu.contact.layer import layer_table
+from bearing_fmu.evaluate import one_kernel, port_kernel
 from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.tilted.layered import LayeredFilm, layered_film, solve_layered
+from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.reynolds import solve_pressure
 from bearing_fmu.films.tilted.tangent import add_tangent
 from bearing_fmu.films.tilted.workspace import STOCK, TiltedFilm, tilted_film
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
-from bearing_fmu.status import OK
+from bearing_fmu.status import NO_SOLUTION, OK
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
@@ -52,6 +55,28 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> TiltedFilm
     return tilted_film(parameters.columns, parameters.rows, aspect, space)
 
 
+@stage
+def _solve_on_layer(
+    film: LayeredFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats, contact: Floats
+) -> int:
+    status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, result)
+    if status != OK:
+        return status
+    grip = scales.friction * sliding_sense(speed, scales.radius)
+    half = 0.5 * scales.width
+    if not add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact):
+        return NO_SOLUTION
+    return OK
+
+
+def _prepare_on_layer(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFilm:
+    first, table = layer_table(parameters)
+    sigma = parameters.roughness / parameters.clearance
+    unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
+    soft = parameters.layer_compliance * unit / parameters.clearance
+    return layered_film(_prepare(parameters, space), first, table, sigma, soft)
+
+
 SOLVER = Solver(
     name="tilted",
     kernel=port_kernel("tilted", _solve, add_tilted),
@@ -63,6 +88,16 @@ SOLVER = Solver(
 )
 
 
+LAYERED = Solver(
+    name="tilted",
+    kernel=one_kernel("layered", _solve_on_layer),
+    prepare=_prepare_on_layer,
+    tilts=True,
+    stock=STOCK,
+)
+"""On a soft layer, with the solid contact in its own solution."""
+
+
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
-    return Film.of(SOLVER, values)
+    return Film.of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)

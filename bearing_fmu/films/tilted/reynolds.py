@@ -48,7 +48,7 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float) -> None:
+def shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float) -> None:
     """Grid, gap and conductances at the columns (axial flow) and at the faces (flow around)."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
@@ -148,7 +148,7 @@ def unfold(film: TiltedFilm, index: int, side: int, sides: int) -> None:
 
 
 @inner_kernel
-def _integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> None:
+def integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> None:
     """Wrench of the bearing part of the pressure, largest pressure, shear integral."""
     n, m = film.face.shape[1], film.circle.shape[2]
     cell = 2.0 * np.pi / m
@@ -271,7 +271,7 @@ def solve_pressure(
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
-    _shape_gap(film, bore, q, sigma)
+    shape_gap(film, bore, q, sigma)
     if reynolds > 0.0:
         _make_turbulent(film, reynolds)
     release(film)
@@ -290,7 +290,7 @@ def solve_pressure(
             status = OK
             break
     if status == OK:
-        _integrate(film, bore, ambient, result)
+        integrate(film, bore, ambient, result)
         if reynolds > 0.0:
             result[SHEAR] = _turbulent_shear(film, bore, reynolds)
     return status

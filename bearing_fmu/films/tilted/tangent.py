@@ -37,9 +37,9 @@ def _rest(film: TiltedFilm, bore: Bore) -> None:
             film.sides[i * size : (i + 1) * size] = 0.0
 
 
-@stage
-def _solve_adjoints(film: TiltedFilm, bore: Bore) -> None:
-    """Adjoint pressures 1-4, for the four components of the wrench."""
+@inner_kernel
+def adjoint_sides(film: TiltedFilm) -> None:
+    """Derivatives of the four components of the film's wrench by the pressure, as right-hand sides."""
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     cell = 2.0 * np.pi / m
@@ -62,15 +62,23 @@ def _solve_adjoints(film: TiltedFilm, bore: Bore) -> None:
             sides[at + width] = across
             sides[at + 2 * width] = -z * across
             sides[at + 3 * width] = z * along
+
+
+@stage
+def _solve_adjoints(film: TiltedFilm, bore: Bore) -> None:
+    """Adjoint pressures 1-4, for the four components of the wrench."""
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    adjoint_sides(film)
     _rest(film, bore)
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
-    substitute(b, film.coupling, w, wt, sides, film.row, m, n, width, 4)
+    substitute(b, film.coupling, w, wt, film.sides, film.row, m, n, width, 4)
     for k in range(4):
         unfold(film, k + 1, k, 4)
 
 
 @inner_kernel
-def _prepare(film: TiltedFilm, speed: float) -> None:
+def prepare(film: TiltedFilm, speed: float) -> None:
     """Derivatives of the residual by gap, metric and squeezed volume, in the stack's rows."""
     n, m = film.face.shape[1], film.circle.shape[2]
     pressure = film.pressures[0]
@@ -100,7 +108,7 @@ def _prepare(film: TiltedFilm, speed: float) -> None:
 
 
 @inner_kernel
-def _gap_change(film: TiltedFilm, bore: Bore, q: Floats, k: int, side: int, z: float, change: Floats) -> None:
+def gap_change(film: TiltedFilm, bore: Bore, q: Floats, k: int, side: int, z: float, change: Floats) -> None:
     """dH/dq_k at one z, with the motion of the grid."""
     ex = q[0] + q[3] * z
     ey = q[1] - q[2] * z
@@ -111,7 +119,7 @@ def _gap_change(film: TiltedFilm, bore: Bore, q: Floats, k: int, side: int, z: f
 
 
 @inner_kernel
-def _residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
+def residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
     """Tangent of the residual along q_k."""
     n, m = film.face.shape[1], film.circle.shape[2]
     tangent, by_gap, by_metric = film.forcing[TANGENT], film.forcing[BY_GAP], film.forcing[BY_METRIC]
@@ -124,7 +132,7 @@ def _residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int
         dsin[i] = cos[i] * motion[i] - cos[back] * motion[back]
     along, around = film.rings[0, STRETCHING + k], film.rings[1, STRETCHING + k]
     for j in range(n + 2):
-        _gap_change(film, bore, q, k, 0, film.nodes[j], change)
+        gap_change(film, bore, q, k, 0, film.nodes[j], change)
         gap, metric, out = by_gap[2 * n + j], by_metric[2 * n + j], tangent[2 * n + j]
         for i in range(m):
             out[i] = gap[i] * change[i] + metric[i] * along[i]
@@ -134,14 +142,14 @@ def _residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int
             gap, metric, out = by_gap[j], by_metric[j], tangent[j]
             for i in range(m):
                 out[i] = gap[i] * change[i] + metric[i] * (uy * dcos[i] - ux * dsin[i])
-            _gap_change(film, bore, q, k, 1, film.nodes[j], change)
+            gap_change(film, bore, q, k, 1, film.nodes[j], change)
             gap, metric, out = by_gap[n + j], by_metric[n + j], tangent[n + j]
             for i in range(m):
                 out[i] = gap[i] * change[i] + metric[i] * around[i]
 
 
 @inner_kernel
-def _contract(film: TiltedFilm, k: int, result: Floats) -> None:
+def contract(film: TiltedFilm, k: int, result: Floats) -> None:
     """dF/dq_k through the pressure."""
     tangent = film.forcing[TANGENT].reshape(-1)
     a0, a1 = film.pressures[1].reshape(-1), film.pressures[2].reshape(-1)
@@ -159,7 +167,7 @@ def _contract(film: TiltedFilm, k: int, result: Floats) -> None:
 
 
 @inner_kernel
-def _add_grid_motion(film: TiltedFilm, result: Floats) -> None:
+def add_grid_motion(film: TiltedFilm, result: Floats) -> None:
     """dF/dq at fixed nodal pressures: the quadrature moves with the grid."""
     n, m = film.face.shape[1], film.circle.shape[2]
     cell = 2.0 * np.pi / m
@@ -190,7 +198,7 @@ def _add_grid_motion(film: TiltedFilm, result: Floats) -> None:
 
 
 @inner_kernel
-def _damping(film: TiltedFilm, result: Floats) -> None:
+def damping(film: TiltedFilm, result: Floats) -> None:
     """dF/dv: the velocity enters through the squeezed volume alone."""
     n, m = film.face.shape[1], film.circle.shape[2]
     cos, sin = film.rings[1, COS], film.rings[1, SIN]
@@ -220,9 +228,9 @@ def _damping(film: TiltedFilm, result: Floats) -> None:
 def add_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, speed: float, result: Floats) -> None:
     """Complete `result` of `solve_pressure` by dF/dq and dF/dv, each (4, 4) row by row."""
     _solve_adjoints(film, bore)
-    _prepare(film, speed)
+    prepare(film, speed)
     for k in range(4):
-        _residual_tangent(film, bore, q, v, k)
-        _contract(film, k, result)
-    _add_grid_motion(film, result)
-    _damping(film, result)
+        residual_tangent(film, bore, q, v, k)
+        contract(film, k, result)
+    add_grid_motion(film, result)
+    damping(film, result)
