@@ -203,9 +203,7 @@ class BearingEntry(Placed):
     roughness: float = positive(1e-4, "m; did you give um?", port.default_of("roughness"))
     contact_modulus: float = within(0.0, 1e13, _PRESSURE, port.default_of("contact_modulus"))
     friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
-    density: float = Field(
-        port.default_of("density"), gt=100.0, lt=3e3, description="kg/m3; did you give t/m3?"
-    )
+    density: float = within(100.0, 3e3, "kg/m3; did you give t/m3?", port.default_of("density"))
     feed_pressure: float = within(0.0, 1e8, _PRESSURE, 0.0)
     bore: str = bores.PLAIN
     preload: float = within(0.0, 0.95, "", 0.0)

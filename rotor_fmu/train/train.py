@@ -91,8 +91,7 @@ class BearingSeat:
     bore : str
         Its arcs, see `fmus.port.bore.from_text`.
     layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
-        Soft layer of the bore: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio,
-        hardness [Pa].
+        Soft layer: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio, hardness [Pa].
     load : float or None
         Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
