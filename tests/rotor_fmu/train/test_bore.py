@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -88,3 +89,10 @@ def test_capacity_counts_the_arcs_below(with_bore):
     circle = most_load(replace(seat, bore="plain"), 300.0)
     assert most_load(seat, 300.0) == pytest.approx(2.0 * circle)
     assert most_load(with_bore('arcs = [{start = "200 deg", end = "340 deg"}]').bearings[0], 300.0) == circle
+
+
+def test_the_example_in_lemon_bores():
+    folder = Path(__file__).parents[2] / "examples" / "lemon"
+    for seat in load_train(folder).bearings:
+        assert degrees(from_text(seat.bore)) == [(10, 170, 90), (190, 350, 270)]
+        assert seat.feed_pressure == pytest.approx(1.2e5)
