@@ -77,12 +77,11 @@ class Checkpoint:
         with self._fitting():
             start = Start(**{field.name: self.arrays[f"start.{field.name}"] for field in fields(Start)})
             bearings, nodes = len(self.meta["fmus"]) - 1, len(start.static_line)
-            shapes = {"static_line": (nodes, 2), "loads": (bearings, 2)}
-            shapes["tangents"] = (
-                bearings if len(start.tangents) else 0,
-                4,
-                8,
-            )  # none if not asked for
+            shapes: dict[str, tuple[int, ...]] = {
+                "static_line": (nodes, 2),
+                "loads": (bearings, 2),
+                "tangents": (bearings if len(start.tangents) else 0, 4, 8),  # none if not asked for
+            }
             for name, value in vars(start).items():
                 if value.shape != shapes.get(name, (bearings, 4)) or value.dtype != np.float64:
                     raise ValueError(f"start.{name} is {value.dtype} of shape {value.shape}")
