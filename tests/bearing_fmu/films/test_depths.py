@@ -110,8 +110,8 @@ def test_depth_names():
     assert depths.films() == ("v1", "v2", "v3")
     with pytest.raises(ValueError, match=r"bearing depth 'v4': allowed are v1, v2, v3"):
         make_film("v4", TURBINE)
-    with pytest.raises(ValueError, match="boundary = 'reynolds': the aligned film has guembel only"):
-        make_film("v2", plain(0.5, boundary="reynolds"))
+    with pytest.raises(ValueError, match="boundary = 'reynolds': the short film has guembel only"):
+        make_film("v3", plain(0.5, boundary="reynolds"))
 
 
 def test_units_of_the_tilts():
