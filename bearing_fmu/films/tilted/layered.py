@@ -85,13 +85,17 @@ def _set_columns(layered: LayeredFilm, ambient: float) -> None:
         field, scale = film.column[:, j], film.stiffness[j] * cell * sigma**3
         for i in range(m):
             pressure = ambient + (film.pressures[0, j, i] if j < n else 0.0)
-            h, h1, h2 = _gap(layered, field[GAP, i] + soft * max(pressure, 0.0))
+            s = field[GAP, i] + soft * max(pressure, 0.0)
+            h, h1, h2 = _gap(layered, s)
             t, t1, t2 = flow_gap(h, sigma)
             flow, flow1 = rough_flow(h / sigma)
             field[OPEN, i], field[OPEN_1, i], field[OPEN_2, i] = t, t1 * h1, t2 * h1 * h1 + t1 * h2
             field[CONDUCTANCE, i] = scale * metric[i] * flow
             field[POWER, i] = flow1 / (flow * sigma) * t / max(t1, _FLAT)
-            layered.asperities[0, j, i] = (h - field[GAP, i]) / soft - max(pressure, 0.0)
+            # of the deflection itself: h - s would be rounding where nothing touches
+            layered.asperities[0, j, i] = (
+                sigma * deflection(s / sigma, layered.constants[0], layered.table)[0] / soft
+            )
             layered.asperities[1, j, i] = (h1 - 1.0) / soft
 
 
