@@ -29,6 +29,9 @@ DEEPEST = 10
 CALM = 1.0 / 8.0
 """Share of the tolerance below which the error, of second order in the step, allows twice the step."""
 
+BEYOND_ALL_BOUNDS = 1e6
+"""A position, tilt or rate of a journal, in SI units, at which a run has diverged: stresses still fit a record."""
+
 OF_LENGTH = 0.4
 """Weight of the error from a step's length against its defect; with it equal tolerances give equal errors
 whether the defect decides (linear-implicit) or the length does (newton)."""
@@ -209,8 +212,10 @@ class Stepper:
 
     def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
         system = self._system
-        if not (math.isfinite(sum(sizes)) and math.isfinite(system.journals.sum())):
-            motion = np.column_stack([system.journals, system.forces])
+        bounded = float(np.abs(system.journals).max()) < BEYOND_ALL_BOUNDS  # False of NaN
+        if not (math.isfinite(sum(sizes)) and bounded):
+            journals = np.where(np.abs(system.journals) < BEYOND_ALL_BOUNDS, system.journals, np.nan)
+            motion = np.column_stack([journals, system.forces])
             return NotFinite(
                 "the motion of the journal is not finite after the step",
                 self._name(np.count_nonzero(~np.isfinite(motion), axis=1)),

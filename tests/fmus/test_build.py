@@ -135,7 +135,10 @@ def test_sources_follow_imports():
     assert set(files["spring_unit"]) == {"__init__.py", "facade.py"}
     assert set(files["fmus"]) == {
         "__init__.py",
-        *(f"port/{name}.py" for name in ("__init__", "balance", "bearing", "connector", "failure")),
+        *(
+            f"port/{name}.py"
+            for name in ("__init__", "balance", "bearing", "bore", "connector", "failure", "linear_bearing")
+        ),
         *(f"port/{name}.py" for name in ("rotor_variables", "start", "variable")),
         *(f"unit/{name}.py" for name in ("__init__", "failure", "hooks", "layout", "slave")),
         *(f"unit/{name}.py" for name in ("state", "values")),

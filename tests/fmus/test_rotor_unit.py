@@ -222,5 +222,4 @@ def test_file_names_and_digests_tell_trains_apart(small_train):
     assert rotor_recipe(replace(small_train, name="turbine")).file_name == "rotor.fmu"
     faster = rotor_recipe(replace(small_train, speed=1.01 * small_train.speed))
     assert faster.guid != rotor_recipe(small_train).guid
-    with pytest.raises(ValueError, match=r"'\.\./x': allowed are"):
-        rotor_recipe(replace(small_train, name="../x"))
+    assert rotor_recipe(replace(small_train, name="../x")).file_name == "rotor____x.fmu"  # no path

@@ -112,12 +112,14 @@ def test_energy_after_a_push_stays_bounded(train, data):
     mobility = rotor.shaft.bearing @ rotor.shaft.bearing.T  # of the journals; modes have unit mass
     stiffest = math.sqrt(np.abs(np.linalg.eigvals(mobility @ sl.block_diag(*K))).max())
     step = min(data.draw(st.floats(1e-5, 1e-3)), 3.0 / stiffest)
+    # the method conserves the energy less a share (k/m) H^2 / 12 of that in the spring
+    growth = max(3.0, 1.0 / (1.0 - (step * stiffest) ** 2 / 12.0))
     rotor.step(0.0, step, push, K, C, train.speed)
     pushed = energy() - rest
     assert pushed > 0.0
     for k in range(1, 100):
         rotor.step(k * step, step, F0, K, C, train.speed)
-        assert energy() - rest < 3.0 * pushed
+        assert energy() - rest < growth * pushed
     assert energy() > rest - 1e-6 * pushed
 
 

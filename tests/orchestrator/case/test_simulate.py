@@ -17,10 +17,19 @@ from orchestrator.master.stepping import DEEPEST
 from orchestrator.outcome import Outcome
 from orchestrator.results.record_files import read_record, write_record
 from orchestrator.scenario import file as file_module
-from orchestrator.scenario.file import load_scenario, scenario_toml
+from orchestrator.scenario.file import load_scenario, scenario_toml, train_of
+from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
-from tests.orchestrator.toy_train import GRADE, SPEED, STIFFNESS, WHEEL_MASS, toy_fmu_folder, toy_scenario
+from tests.orchestrator.toy_train import (
+    GRADE,
+    SPEED,
+    STIFFNESS,
+    WHEEL_MASS,
+    in_the_place_of,
+    toy_fmu_folder,
+    toy_scenario,
+)
 
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
 
@@ -142,12 +151,14 @@ def test_a_failed_film_ends_the_run_with_its_reason_and_a_partial_record(fmus, t
     "no-equilibrium, exit 3; bearing, load, what it carries; an empty record",
     guard="orchestrator.master.start.journal_position:aligned_positions",
 )
-def test_without_equilibrium_there_is_an_empty_record_and_a_reason(fmus, tmp_path):
+def test_without_equilibrium_there_is_an_empty_record_and_a_reason(toy_fmus, tmp_path):
     scenario = toy_scenario(tmp_path)
     (tmp_path / "toy" / "train.toml").write_text(
         (tmp_path / "toy" / "train.toml").read_text().replace("clearance = 0.0008", "clearance = 0.0001")
     )
-    result = simulate(scenario, fmus)
+    own = toy_fmu_folder(toy_fmus, tmp_path / "own")
+    in_the_place_of(rotor_recipe(train_of(scenario)), toy_fmus / "two_masses.fmu", own)
+    result = simulate(scenario, own)
     assert result.outcome is Outcome.NO_EQUILIBRIUM
     assert "at the start: front: the film carries 2000 N of the load 4903 N" in result.message
     assert result.record.attrs["exit_status"] == 3
@@ -182,7 +193,7 @@ def test_a_missing_fmu_is_named_and_nothing_is_left_behind(fmus, tmp_path, monke
         return made
 
     monkeypatch.setattr(case_module, "FmuStore", watched)
-    with pytest.raises(FmuError, match=r"bearing_v2\.fmu: no such file"):
+    with pytest.raises(FmuError, match=r"bearing_v2-[0-9a-f]{16}\.fmu: no such file"):
         (fmus / "bearing_v2.fmu").rename(fmus / "hidden")
         try:
             simulate(toy_scenario(tmp_path, depth_at={"rear": "v2"}), fmus)

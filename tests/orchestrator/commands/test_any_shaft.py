@@ -127,7 +127,10 @@ def test_every_linear_command_works_on_every_shaft(within, name, command):
     file = "campbell-supported" if options else first
     with xr.open_dataset(f"{'-'.join(command.split())}/{file}.nc", engine="h5netcdf") as data:
         for variable in data.data_vars.values():
-            assert np.all(np.isfinite(variable.values))
+            found = np.isfinite(variable)
+            if "rotation" in found.dims:  # a mode may be overdamped at some speeds, then it is none
+                found = found.any("rotation")
+            assert found.all()
         if kept and "error" in data:
             assert float(abs(data["error"]).max()) < 1e-8
         if name == "fine" and "error" in data:

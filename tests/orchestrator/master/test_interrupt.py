@@ -39,6 +39,14 @@ def test_signals_that_come_together_count_once(monkeypatch):
     guard="orchestrator.master.interrupt:SIGNALS",
 )
 def test_a_closed_terminal_ends_a_run_between_steps():
+    earlier = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests themselves may outlive their terminal
+    try:
+        _closed_terminal()
+    finally:
+        signal.signal(signal.SIGHUP, earlier)
+
+
+def _closed_terminal():
     with pytest.raises(Terminated), interrupt_between_steps(lambda stage, time: None) as report:
         signal.raise_signal(signal.SIGHUP)
         report(Stage.RUN, 0.1)

@@ -105,7 +105,11 @@ def test_a_run_that_cannot_write(tmp_path):
         ),
     ],
 )
-def test_a_signal_ends_the_runs_between_steps_and_starts_no_more(number, outcome, status, tmp_path):
+def test_a_signal_ends_the_runs_between_steps_and_starts_no_more(
+    number, outcome, status, tmp_path, monkeypatch
+):
+    monkeypatch.setattr("orchestrator.master.interrupt.TOGETHER", 0.0)  # the last test's signal was just now
+
     def ask(_name, said):
         if said == "listening ...":
             signal.raise_signal(number)
