@@ -1,7 +1,7 @@
 """Run an SSP in ecos.
 
-Not with fmpy in the same process, which ecos 0.7.2 does not bear: it crashes in `fmi2SetupExperiment`, where the
-unit's table of functions lies in a library that is no longer loaded.
+Not with fmpy in the same process, which ecos 0.7.2 does not bear: it crashes in `fmi2SetupExperiment`, where
+the unit's table of functions lies in a library that is no longer loaded.
 """
 
 import re
