@@ -30,7 +30,7 @@ CALM = 1.0 / 8.0
 """Share of the tolerance below which the error, of second order in the step, allows twice the step."""
 
 BEYOND_ALL_BOUNDS = 1e6
-"""A position, tilt or rate of a journal, SI units, at which a run has diverged; stresses still fit a record."""
+"""Position, tilt or rate of a journal, SI units, at which a run has diverged; stresses still fit a record."""
 
 OF_LENGTH = 0.4
 """Weight of the error from a step's length against its defect; with it equal tolerances give equal errors
