@@ -15,6 +15,8 @@ from pathlib import Path
 
 import pytest
 
+from bearing_fmu import depths
+
 SOURCE = Path(__file__).with_name("native_host.c")
 REPOSITORY = Path(__file__).parents[2]
 STARTS = int(os.environ.get("NATIVE_HOST_STARTS", "5"))
@@ -24,9 +26,12 @@ AT_HAND = ("bearing_v1.fmu", "bearing_v2.fmu")
 HARMFUL = ("scipy._lib._uarray", "scipy.fft", "scipy.interpolate")
 
 
-@pytest.mark.parametrize("facade", ["rotor_fmu.facade", "bearing_fmu.facade"])
-def test_no_unit_loads_what_crashes_the_end_of_python_3_11(facade):
-    script = f"import sys, {facade}; print(*(set(sys.modules) & set({HARMFUL!r})))"
+FILMS = sorted({depth.film.partition(":")[0] for depth in depths.depths()})
+
+
+@pytest.mark.parametrize("module", ["rotor_fmu.facade", "bearing_fmu.facade", *FILMS])
+def test_no_unit_loads_what_crashes_the_end_of_python_3_11(module):
+    script = f"import sys, {module}; print(*(set(sys.modules) & set({HARMFUL!r})))"
     done = subprocess.run(
         [sys.executable, "-c", script], cwd=REPOSITORY, capture_output=True, text=True, check=True
     )

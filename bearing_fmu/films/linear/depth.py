@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
+from bearing_fmu.films.linear.monotone_cubic import MonotoneCubic
 from fmus import port
 from fmus.port.variable import Value
 
@@ -44,8 +44,7 @@ class LinearBearing:
         if len(rows) == 1:
             self._constant = self._matrices(rows[0, 1:])
         else:
-            # through all points, without overshoot between them (Fritsch and Butland 1984)
-            self._curve = PchipInterpolator(self._speeds, rows[:, 1:])
+            self._curve = MonotoneCubic(self._speeds, rows[:, 1:])
         self._static = np.array([float(values[name]) for name in port.STATIC_WRENCH])
         self._centre = np.array([float(values.get(f"offset.{name}", 0.0)) for name in port.POSITION])
         self._centre = self._centre + [float(values[name]) for name in port.STATIC_POSITION]
