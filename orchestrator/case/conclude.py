@@ -46,7 +46,6 @@ def conclude(
         For output and for what went wrong.
     """
     result, half = results
-    result = completed(case, result)
     summary = summarise(result, analysed=request.bearing)
     if half is not None:
         certificate = certify(summary, summarise(half, analysed=request.bearing))

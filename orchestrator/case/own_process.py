@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from orchestrator.outcome import PROCESS_DIED
+from orchestrator.results.replacing import umask
 
 _leave = os._exit
 _LAST_WORDS = b"error: a unit ended the process of the run; there are no results\n"
@@ -28,8 +29,7 @@ def undisturbed() -> Iterator[None]:
     The working folder and the mask of files are those of before at the end. Until then ``os._exit`` is an
     error of the unit that calls it, and an end of Python has the status of a process that died.
     """
-    folder, mask = Path.cwd(), os.umask(0)
-    os.umask(mask)
+    folder, mask = Path.cwd(), umask()
     _State.at_work = True
     os._exit = _refuse
     try:

@@ -38,7 +38,7 @@ def run(
         For anything wrong with the input, or modes that the shaft does not have.
     """
     case = linear_case(request, console)
-    top = highest or 2.0 * case.train.speed / HERTZ
+    top = case.highest(highest)
     if supported:
         with case.over_speed() as films:
             data = supported_data(case, films, count, top)

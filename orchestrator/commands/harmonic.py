@@ -55,18 +55,20 @@ def run(
             "give the train wheels, or the scenario unbalance.grade or unbalance.at"
         )
     with case.over_speed() as films:
-        speeds, tracks, missing = followed(case, films, highest or 2.0 * case.train.speed / HERTZ)
+        along = followed(case, films, case.highest(highest))
         responses = {name: Response(case, shaft, films) for name, shaft in case.shafts.items()}
-        grid = resonant_speeds(case, films, responses[FULL], speeds, tracks)
+        grid = resonant_speeds(case, responses[FULL], along)
         shaft, places, forces = harmonic_data(case, responses, grid)
         phasors = probe_data(case, responses[FULL], grid, probes)
-        bearings = bearing_data({s: films.at(s) for s in speeds}, case.train, case.films_over_speed)
+        bearings = bearing_data({s: films.at(s) for s in along.speeds}, case.train, case.films_over_speed)
         worst = least_damped(case.shaft, case.train.speed, films.at(case.train.speed).bearings)
     figures = {
         request.command: harmonic_figure(shaft, places, forces, case.train),
         f"{request.command}-bode": bode_figure(phasors, case.train),
     }
-    first = "\n".join(filter(None, [warning(worst, case.train.speed), missing and f"Left out: {missing}."]))
+    first = "\n".join(
+        filter(None, [warning(worst, case.train.speed), along.missing and f"Left out: {along.missing}."])
+    )
     table = harmonic_table(case, shaft, places, forces)
     write_results(case, [shaft, places, phasors, forces, bearings], table, figures, first=first)
     return 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
+from orchestrator.results.quantities import HERTZ
 from orchestrator.scenario.file import bundled_scenarios, load_scenario, read_train
 from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.train.file import bundled_trains, load_train
@@ -28,7 +29,7 @@ def show(console: Console) -> None:
         facts.add_row(
             f"[bold]{name}[/bold]",
             f"{train.length:g} m, {len(train.shoulders)} shoulders, {train.mass / 1e3:.3g} t, "
-            f"{train.speed / 6.283185307179586:g} Hz",
+            f"{train.speed / HERTZ:g} Hz",
         )
         facts.add_row("bearings", ", ".join(seat.name for seat in train.bearings))
         facts.add_row("wheels", ", ".join(wheel.name for wheel in train.wheels))
@@ -47,7 +48,7 @@ def show_train(source: str, console: Console) -> None:
     gravity = ", ".join(f"{g:g}" for g in train.gravity)
     console.print(
         f"[bold]{train.name}[/bold]  {train.length:g} m, {train.mass:.5g} kg, "
-        f"{train.speed / 6.283185307179586:g} Hz, gravity ({gravity}) m/s2",
+        f"{train.speed / HERTZ:g} Hz, gravity ({gravity}) m/s2",
         highlight=False,
     )
     console.print(_seats(train), _bodies(train), _shaft(train), sep="\n")

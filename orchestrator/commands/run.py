@@ -9,7 +9,7 @@ from rich.console import Console
 from orchestrator.case.case import Case
 from orchestrator.case.certify import at_half_step
 from orchestrator.case.checkpoint_folder import checkpoints, discard
-from orchestrator.case.conclude import conclude
+from orchestrator.case.conclude import completed, conclude
 from orchestrator.case.own_process import undisturbed
 from orchestrator.case.prepare import prepare, result_folder_of
 from orchestrator.case.progress import show_progress
@@ -59,7 +59,7 @@ def run_case(
     threads = request.threads or default_threads(case.scenario, case.train)
 
     def finish(result: Result, half: Result | None = None) -> int:
-        return conclude(case, request, folder, (result, half), console, errors)
+        return conclude(case, request, folder, (completed(case, result), half), console, errors)
 
     def warn(text: str) -> None:
         errors.print(f"[yellow]warning:[/yellow] {text}", highlight=False, soft_wrap=True)

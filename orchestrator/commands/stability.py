@@ -34,7 +34,7 @@ def run(request: LinearRequest, console: Console, *, highest: float | None) -> i
     """
     case = linear_case(request, console)
     with case.over_speed() as films:
-        found = stability(case, films, highest or 2.0 * case.train.speed / HERTZ)
+        found = stability(case, films, case.highest(highest))
     data = [found.modes, found.chart, found.bearings]
     if found.response is not None:
         data += [found.response, found.peaks]

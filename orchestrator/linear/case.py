@@ -153,6 +153,10 @@ class LinearCase:
         self._ensure()
         return operating_point(self.scenario, self.train, self.request.fmus)
 
+    def highest(self, asked: float | None) -> float:
+        """Highest speed of rotation [Hz] of an investigation: what was asked for, or twice the rated one."""
+        return asked or 2.0 * self.train.speed / HERTZ
+
     @contextmanager
     def over_speed(self) -> Iterator[OverSpeed]:
         """Yield linearised bearings at any speed; FMUs are built where missing."""

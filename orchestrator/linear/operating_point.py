@@ -22,14 +22,12 @@ from orchestrator.fmi.unit import UnitError
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start, rest_at
 from orchestrator.master.system import System
+from orchestrator.results.quantities import HERTZ
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.linear.analysis import LinearBearings
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
-
-HERTZ = 2.0 * np.pi
-"""rad/s of one revolution a second."""
 
 HALVINGS = 6
 """Of the way to a speed at which the search from its neighbour fails."""

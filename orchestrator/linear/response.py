@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -12,6 +13,7 @@ from orchestrator.linear.case import HERTZ, LinearCase
 from orchestrator.linear.operating_point import OverSpeed
 from rotor_fmu.linear.analysis import (
     HarmonicResponse,
+    ModesAt,
     ReducedShaft,
     ShaftModel,
     Tracks,
@@ -55,22 +57,42 @@ class Response:
         return float(self.amplitudes(speed).max())
 
 
-def followed(case: LinearCase, films: OverSpeed, highest: float) -> tuple[list[float], Tracks, str]:
-    """Speeds up to a frequency of rotation [Hz], modes followed over them, and why speeds are left out."""
+@dataclass(frozen=True)
+class Followed:
+    """Modes followed over speed.
+
+    Attributes
+    ----------
+    speeds : list of float
+        [rad/s], ascending.
+    tracks : Tracks
+        The modes there.
+    modes_at : callable
+        Modes of these and of any other speed; each is computed once.
+    missing : str
+        Why speeds are left out, or nothing.
+    """
+
+    speeds: list[float]
+    tracks: Tracks
+    modes_at: ModesAt
+    missing: str
+
+
+def followed(case: LinearCase, films: OverSpeed, highest: float) -> Followed:
+    """Follow the modes up to a frequency of rotation [Hz]."""
     grid = np.linspace(0.0, highest, TRACKED_INTERVALS + 1)
     rated = case.train.speed if case.train.speed <= HERTZ * highest else HERTZ * highest
     speeds, missing = films.reachable(list(np.union1d(HERTZ * grid, [rated])))
     modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
     reference = int(np.argmin(np.abs(np.array(speeds) - rated)))
-    return speeds, follow(modes_at, speeds, reference, MODES), missing
+    return Followed(speeds, follow(modes_at, speeds, reference, MODES), modes_at, missing)
 
 
-def resonant_speeds(
-    case: LinearCase, films: OverSpeed, response: Response, speeds: list[float], tracks: Tracks
-) -> Array:
+def resonant_speeds(case: LinearCase, response: Response, along: Followed) -> Array:
     """Speeds [rad/s] over the range over which modes were followed, with all resonances among them."""
-    modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
-    grid = np.linspace(0.0, speeds[-1], INTERVALS + 1)[1:]
-    rated = [case.train.speed] if case.train.speed <= speeds[-1] else []
-    grid = np.union1d(grid[grid >= speeds[0]], rated)
-    return refined(response.largest, grid, resonances(tracks, modes_at, speeds))
+    first, last = along.speeds[0], along.speeds[-1]
+    grid = np.linspace(0.0, last, INTERVALS + 1)[1:]
+    rated = [case.train.speed] if case.train.speed <= last else []
+    grid = np.union1d(grid[grid >= first], rated)
+    return refined(response.largest, grid, resonances(along.tracks, along.modes_at, along.speeds))

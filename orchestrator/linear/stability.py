@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from orchestrator.linear.campbell import OVERDAMPED, modes_on
+from orchestrator.linear.campbell import STRONGEST_DAMPING
 from orchestrator.linear.case import HERTZ, LinearCase
 from orchestrator.linear.operating_point import OverSpeed, bearing_data
-from orchestrator.linear.response import MODES, Response, followed, resonant_speeds
+from orchestrator.linear.response import Response, followed, resonant_speeds
 from rotor_fmu.linear.analysis import (
     CriticalSpeed,
     LeastDamped,
@@ -27,9 +27,6 @@ Array = NDArray[np.float64]
 
 LEAST_DAMPED = 8
 """Modes whose damping is shown: the least damped somewhere."""
-
-STRONGEST = 0.95
-"""Damping ratio beyond which nothing oscillates."""
 
 MAP_POINTS, MAP_DECADES, MAP_MODES = 41, 3.0, 6
 """Stiffnesses of the map, decades each way from that of the bearings, and critical speeds of each."""
@@ -82,13 +79,13 @@ class Stability:
 
 def stability(case: LinearCase, films: OverSpeed, highest: float) -> Stability:
     """Investigate a train up to a frequency of rotation [Hz]."""
-    speeds, tracks, missing = followed(case, films, highest)
-    modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
+    along = followed(case, films, highest)
+    speeds, tracks = along.speeds, along.tracks
     response, critical = None, list[CriticalSpeed]()
     if case.unbalance.any():
         at_bearings = [seat.node for seat in case.train.bearings]
         found = Response(case, case.shaft, films)
-        grid = resonant_speeds(case, films, found, speeds, tracks)
+        grid = resonant_speeds(case, found, along)
         critical = critical_speeds(lambda speed: found.amplitudes(speed)[at_bearings], grid)
         response = xr.Dataset(
             {
@@ -110,17 +107,17 @@ def stability(case: LinearCase, films: OverSpeed, highest: float) -> Stability:
         _mode_data(case, tracks, speeds),
         _chart(case, films),
         bearing_data(points, case.train, case.films_over_speed),
-        [(root / HERTZ, above) for root, above in thresholds(modes_at, speeds)],
+        [(root / HERTZ, above) for root, above in thresholds(along.modes_at, speeds)],
         critical,
         response,
-        missing,
+        along.missing,
     )
 
 
 def _mode_data(case: LinearCase, tracks: Tracks, speeds: list[float]) -> xr.Dataset:
     """Frequency and damping of the modes that are least damped somewhere (rotation, mode)."""
     ratio = tracks.of(lambda modes: modes.damping_ratio)
-    ratio = np.where(ratio < STRONGEST, ratio, np.nan)
+    ratio = np.where(ratio < STRONGEST_DAMPING, ratio, np.nan)
     known = np.isfinite(ratio).any(axis=0)
     least = np.where(known, np.nanmin(np.where(known, ratio, np.inf), axis=0), np.inf)
     chosen = np.sort(np.argsort(least)[: min(LEAST_DAMPED, int(known.sum()))])

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 from rich import box
 from rich.table import Table
 
 from orchestrator.results.figures.style import PLANAR
+from orchestrator.results.quantities import HERTZ
 from rotor_fmu.linear.analysis import LeastDamped
 
 _COLUMNS = {"irs": "IRS", "irs-plain": "IRS\nplain", "guyan": "Guyan", "craig-bampton": "CMS"}
@@ -39,7 +38,7 @@ def warning(mode: LeastDamped, speed: float) -> str:
     if mode.stable:
         return ""
     return (
-        f"UNSTABLE at {speed / (2.0 * math.pi):.4g} Hz of rotation: the mode of {mode} grows. "
+        f"UNSTABLE at {speed / HERTZ:.4g} Hz of rotation: the mode of {mode} grows. "
         "What is linear here is no motion that lasts."
     )
 

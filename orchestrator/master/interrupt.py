@@ -68,22 +68,32 @@ def _ignored(number: int) -> bool:
     return number == getattr(signal, "SIGHUP", None) and signal.getsignal(number) is signal.SIG_IGN
 
 
+class _Held:
+    """A handler that keeps the first signal until `raise_due`; a second one is raised at once."""
+
+    def __init__(self) -> None:
+        self._due: int | None = None
+
+    def __call__(self, number: int, _frame: FrameType | None) -> None:
+        if not counts():
+            return
+        if self._due is not None:
+            raise SIGNALS[number]
+        self._due = number
+
+    def raise_due(self) -> None:
+        """Raise what has come, if anything has."""
+        if self._due is not None:
+            raise SIGNALS[self._due]
+
+
 @contextmanager
 def held_back() -> Iterator[None]:
     """Hold a signal back until the end of the block, and raise it then; a second one is not held back."""
-    due: list[int] = []
-
-    def on_signal(number: int, _frame: FrameType | None) -> None:
-        if not counts():
-            return
-        if due:
-            raise SIGNALS[number]
-        due.append(number)
-
+    on_signal = _Held()
     with handled(on_signal):
         yield
-    if due:
-        raise SIGNALS[due[0]]
+    on_signal.raise_due()
 
 
 @contextmanager
@@ -103,15 +113,7 @@ def interrupt_between_steps(progress: Callable[_Report, None]) -> Iterator[Calla
     callable
         The same, which raises `KeyboardInterrupt` or `Terminated` when one is due.
     """
-    due: list[int] = []
-
-    def on_signal(number: int, _frame: FrameType | None) -> None:
-        if not counts():
-            return
-        if due:
-            raise SIGNALS[number]
-        due.append(number)
-
+    on_signal = _Held()
     main = threading.current_thread() is threading.main_thread()
 
     def report(*how_far: _Report.args, **more: _Report.kwargs) -> None:
@@ -119,8 +121,7 @@ def interrupt_between_steps(progress: Callable[_Report, None]) -> Iterator[Calla
         for number in SIGNALS if main else ():
             if signal.getsignal(number) is not on_signal and not _ignored(number):
                 signal.signal(number, on_signal)  # a unit has put another in its place
-        if due:
-            raise SIGNALS[due[0]]
+        on_signal.raise_due()
 
     with handled(on_signal):
         yield report

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator.results.quantities import HERTZ
 from rotor_fmu.linear.analysis import LeastDamped, LinearBearings, least_damped, unreduced_shaft
 
 if TYPE_CHECKING:
@@ -34,11 +34,11 @@ def least_damped_attributes(train: Train, speed: float, tangents: NDArray[np.flo
         return {}
     stiffness, damping = np.split(tangents, 2, axis=2)
     mode = least_damped(unreduced_shaft(train), speed, LinearBearings(stiffness, damping))
-    return {_FREQUENCY: mode.frequency / (2.0 * math.pi), _GROWTH: mode.growth}
+    return {_FREQUENCY: mode.frequency / HERTZ, _GROWTH: mode.growth}
 
 
 def least_damped_of(record: xr.Dataset) -> LeastDamped | None:
     """The least damped mode that a record tells, or None."""
     if _FREQUENCY not in record.attrs:
         return None
-    return LeastDamped(2.0 * math.pi * float(record.attrs[_FREQUENCY]), float(record.attrs[_GROWTH]))
+    return LeastDamped(HERTZ * float(record.attrs[_FREQUENCY]), float(record.attrs[_GROWTH]))

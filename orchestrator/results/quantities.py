@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+HERTZ = 2.0 * math.pi
+"""rad/s of one revolution a second."""
+
 
 @dataclass(frozen=True)
 class Quantity:

@@ -52,7 +52,7 @@ def result_folder(folder: Path, adding: bool = False, without: Sequence[str] = (
         yield temporary
         kept = {name: one for name, one in manifest.read(folder).items() if adding and name not in without}
         manifest.write(temporary, kept | manifest.digests_of(temporary, manifest.files_in(temporary)))
-        temporary.chmod(0o777 & ~_umask())
+        temporary.chmod(0o777 & ~umask())
         try:
             _put(temporary, folder)
         except OSError as error:
@@ -153,7 +153,7 @@ def _write_whole(path: Path, text: str) -> None:
     fresh.replace(path)
 
 
-def _umask() -> int:
+def umask() -> int:
     """The process's mask for new files, which mkdtemp overrides."""
     mask = os.umask(0)
     os.umask(mask)

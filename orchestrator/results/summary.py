@@ -16,6 +16,7 @@ from orchestrator.results.certificate import Certificate
 from orchestrator.results.film_regime import FilmRegime, regimes
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import LedgerSummary, ledger_of
+from orchestrator.results.quantities import HERTZ
 from orchestrator.results.result import Result, Timing
 from orchestrator.results.statistics import (
     BearingStatistics,
@@ -240,5 +241,5 @@ def _stability(record: xr.Dataset) -> Stability | None:
     mode = least_damped_of(record)
     if mode is None:
         return None
-    hertz = mode.frequency / (2.0 * math.pi)
+    hertz = mode.frequency / HERTZ
     return Stability(hertz, mode.damping_ratio, mode.log_decrement, mode.stable, str(mode))

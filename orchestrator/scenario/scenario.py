@@ -7,6 +7,7 @@ train.  SI units and rad.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
@@ -30,10 +31,15 @@ def is_fmu(depth: str) -> bool:
     return depth.endswith(".fmu")
 
 
-def _check_depth(value: Any) -> Any:
-    if isinstance(value, str) and value in depths.names():
-        return value
-    raise PydanticCustomError("depth", "no depth", {"allowed": depths.names()})
+def _one_of(allowed: Callable[[], tuple[str, ...]]) -> Any:
+    """A word out of some, which may grow."""
+
+    def check(value: Any) -> Any:
+        if isinstance(value, str) and value in allowed():
+            return value
+        raise PydanticCustomError("depth", "not one of them", {"allowed": allowed()})
+
+    return PlainValidator(check)
 
 
 def _check_depth_or_fmu(value: Any) -> Any:
@@ -42,14 +48,8 @@ def _check_depth_or_fmu(value: Any) -> Any:
     raise PydanticCustomError("depth", "no depth", {"allowed": (*depths.names(), "the path of an .fmu file")})
 
 
-def _check_film(value: Any) -> Any:
-    if isinstance(value, str) and value in depths.films():
-        return value
-    raise PydanticCustomError("depth", "no depth", {"allowed": depths.films()})
-
-
-Depth = Annotated[str, PlainValidator(_check_depth)]
-FilmDepth = Annotated[str, PlainValidator(_check_film)]
+Depth = Annotated[str, _one_of(depths.names)]
+FilmDepth = Annotated[str, _one_of(depths.films)]
 DepthOrFmu = Annotated[str, PlainValidator(_check_depth_or_fmu)]
 """A depth, or the path of an FMU with the port of a bearing."""
 
@@ -84,26 +84,14 @@ class Unbalance(Model):
     at: dict[str, WheelUnbalance] = {}  # noqa: RUF012 (pydantic copies it)
 
 
-def _word(key: str) -> Any:
-    """A word with choices and default of a bearing's parameter."""
-    variable = port.bearing_parameter(key)
-
-    def check(value: Any) -> Any:
-        if isinstance(value, str) and value in variable.choices:
-            return value
-        raise PydanticCustomError("depth", "no choice", {"allowed": variable.choices})
-
-    return PlainValidator(check)
-
-
 def _whole(key: str) -> Any:
     """A whole number with range and default of a bearing's parameter."""
     variable = port.bearing_parameter(key)
     return Field(int(variable.start or 0), ge=variable.minimum, le=variable.maximum)
 
 
-_Boundary = Annotated[str, _word("boundary")]
-_Turbulence = Annotated[str, _word("turbulence")]
+_Boundary = Annotated[str, _one_of(lambda: port.bearing_parameter("boundary").choices)]
+_Turbulence = Annotated[str, _one_of(lambda: port.bearing_parameter("turbulence").choices)]
 
 
 class FilmSettings(Model):

@@ -250,8 +250,7 @@ def _most_lively(peaks: list[CriticalSpeed]) -> list[CriticalSpeed]:
     """Of peaks that are the same resonance, seen by several probes, the one with the largest amplitude."""
     kept: list[CriticalSpeed] = []
     for peak in sorted(peaks, key=lambda p: -p.amplitude):
-        width = peak.speed / peak.amplification
-        if all(abs(peak.speed - other.speed) > 0.5 * max(width, _width(other)) for other in kept):
+        if all(abs(peak.speed - other.speed) > 0.5 * max(_width(peak), _width(other)) for other in kept):
             kept.append(peak)
     return sorted(kept, key=lambda p: p.speed)
 

@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 import scipy.linalg as sl
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from rotor_fmu.shaft.beam import element_matrices
+from rotor_fmu.shaft.banded import cholesky
+from rotor_fmu.shaft.matrices import assemble
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -97,22 +99,16 @@ def loads_at_heights(train: Train, gravity: float) -> Array:
     ndarray, (n_b,)
         As from `target_loads`.
     """
-    seats, elements = train.bearings, element_matrices(train.shoulders)
+    seats, model = train.bearings, assemble(train)
     mean = max(gravity, 1.0) * train.mass / len(seats)
-    springs = np.array([mean / seat.clearance for seat in seats])
     heights = np.array([seat.height or 0.0 for seat in seats])
-    count = 2 * train.nodes
-    band, load = np.zeros((4, count)), np.zeros(count)
-    for k, (stiffness, weight) in enumerate(zip(elements.stiffness, elements.weight, strict=True)):
-        for i, j in zip(*np.tril_indices(4), strict=True):
-            band[i - j, 2 * k + j] += stiffness[i, j]
-        load[2 * k : 2 * k + 4] -= gravity * weight
-    for body in train.bodies:
-        load[2 * body.node] -= gravity * body.mass
+    stiff = np.array([mean / seat.clearance for seat in seats])
     at = 2 * np.array([seat.node for seat in seats])
-    np.add.at(band[0], at, springs)
-    np.add.at(load, at, springs * heights)
-    return np.asarray(springs * (heights - sl.solveh_banded(band, load, lower=True)[at]))
+    springs, load = np.zeros(2 * train.nodes), gravity * model.plane_gravity
+    np.add.at(springs, at, stiff)
+    np.add.at(load, at, stiff * heights)
+    shape = cholesky(sp.csr_array(model.plane_stiffness + sp.diags_array(springs))).solve(load)
+    return np.asarray(stiff * (heights - shape[at]))
 
 
 def _section_weights(train: Train, gravity: float) -> Array:

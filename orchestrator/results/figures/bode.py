@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from orchestrator.results.figures import style
+from orchestrator.results.quantities import HERTZ
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
     from rotor_fmu.train.train import Train
 
-HERTZ = 2.0 * np.pi
 DECADES = 3e3
 """Largest over smallest amplitude of the axis."""
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from orchestrator.results.figures import style
+from orchestrator.results.quantities import HERTZ
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 
     from rotor_fmu.train.train import Train
 
-HERTZ = 2.0 * np.pi
 MARKS_EVERY = 4
 """Reduced shafts are marked at every so many speeds, so that the lines below stay visible."""
 LEAST = 1e-9

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from orchestrator.results.figures import style
+from orchestrator.results.quantities import HERTZ
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
 
     from rotor_fmu.train.train import Train
 
-HERTZ = 2.0 * np.pi
 DECADES = 3e3
 """Largest over smallest value of an axis."""
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from orchestrator.results.figures import style
+from orchestrator.results.quantities import HERTZ
+from rotor_fmu.linear.analysis import LEAST_DECREMENT
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -14,10 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from rotor_fmu.train.train import Train
-
-HERTZ = 2.0 * np.pi
-LEAST_DECREMENT = 0.1
-"""Asked for by API 617."""
 
 
 def stability_figure(
@@ -54,7 +52,9 @@ def _decrements(axes: Axes, modes: xr.Dataset, train: Train) -> None:
         label = f"{hertz:.4g} Hz at rated speed" if np.isfinite(hertz) else "not at rated speed"
         axes.plot(rotation, line["log_decrement"].values, color=colour, linewidth=1.4, label=label)
     axes.axhline(0.0, color="#CC0000", linewidth=1.0)
-    axes.axhline(LEAST_DECREMENT, color="#CC0000", linewidth=0.9, linestyle=":", label="0.1, API 617")
+    axes.axhline(
+        LEAST_DECREMENT, color="#CC0000", linewidth=0.9, linestyle=":", label=f"{LEAST_DECREMENT:g}, API 617"
+    )
     axes.set_yscale("symlog", linthresh=LEAST_DECREMENT)
     _rated(axes, rotation, train)
     axes.set_ylabel("logarithmic decrement [1]")

@@ -13,7 +13,17 @@ import numpy as np
 from orchestrator.results.film_regime import regimes
 from orchestrator.results.geometry import bearing_value
 from orchestrator.results.least_damped import least_damped_of
-from orchestrator.results.quantities import FORCE, GAP, NUMBER, PRESSURE, RATIO, STRESS, VIBRATION, shown
+from orchestrator.results.quantities import (
+    FORCE,
+    GAP,
+    HERTZ,
+    NUMBER,
+    PRESSURE,
+    RATIO,
+    STRESS,
+    VIBRATION,
+    shown,
+)
 from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, shaft_statistics
 from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
@@ -186,7 +196,7 @@ def _stability(record: xr.Dataset, limits: Limits) -> Iterator[Verdict]:
     if limit is not None and mode is not None:
         value = float(mode.log_decrement)
         share = limit.least / value if value > 0.0 else math.inf
-        note = f"{mode.frequency / (2.0 * math.pi):.2f} Hz" + ("" if mode.stable else ", unstable")
+        note = f"{mode.frequency / HERTZ:.2f} Hz" + ("" if mode.stable else ", unstable")
         yield held(limit, "log decrement", ("all", ""), RATIO, value, limit.least, share=share, note=note)
 
 
