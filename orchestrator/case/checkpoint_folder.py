@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from orchestrator.case.case import Case
 from orchestrator.case.request import RunRequest
-from orchestrator.observers.checkpoint import FILE, Checkpoint, CheckpointError, Checkpoints, read
+from orchestrator.observers.checkpoint import FILE, Checkpoint, CheckpointError, Checkpoints, half_written, read
 from orchestrator.observers.checkpoint_meta import problem_of
 from orchestrator.results.folder import ResultFolderError, check_writable
 
@@ -99,7 +99,8 @@ def discard(folder: Path) -> None:
     """Remove the checkpoint of a run that is finished, and its folder unless something else is in it."""
     place = checkpoint_folder(folder)
     with suppress(OSError):
-        (place / FILE).unlink(missing_ok=True)
+        for path in (place / FILE, *half_written(place)):
+            path.unlink(missing_ok=True)
         place.rmdir()
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
@@ -257,6 +258,12 @@ def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
         fresh.replace(path)
     finally:
         fresh.unlink(missing_ok=True)
+
+
+def half_written(folder: Path) -> list[Path]:
+    """Return the files of a checkpoint's folder that killed processes left in the middle of writing."""
+    name = re.compile(re.escape(FILE) + r"\.\d+\.part")
+    return [path for path in sorted(folder.glob(f"{FILE}.*")) if name.fullmatch(path.name)]
 
 
 def read(folder: Path) -> Checkpoint:

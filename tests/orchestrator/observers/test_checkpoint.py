@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from orchestrator.case.checkpoint_folder import checkpoint_folder
+from orchestrator.case.checkpoint_folder import checkpoint_folder, discard
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.observers import checkpoint
@@ -144,6 +144,18 @@ def command(*arguments):
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
+
+
+@pytest.mark.parametrize("own", [None, "notes.txt", "checkpoint.npz.old.part"])
+def test_a_finished_run_removes_what_killed_ones_had_half_written(own, tmp_path):
+    place = checkpoint_folder(tmp_path / "out")
+    place.mkdir()
+    written = [checkpoint.FILE, f"{checkpoint.FILE}.4711.part", f"{checkpoint.FILE}.12.part"]
+    for name in [*written, *filter(None, [own])]:
+        (place / name).touch()
+    discard(tmp_path / "out")
+    assert place.exists() == bool(own)
+    assert not own or [path.name for path in place.iterdir()] == [own]
 
 
 @pytest.mark.slow
