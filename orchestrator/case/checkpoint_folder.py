@@ -11,7 +11,14 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from orchestrator.case.case import Case
 from orchestrator.case.request import RunRequest
-from orchestrator.observers.checkpoint import FILE, Checkpoint, CheckpointError, Checkpoints, half_written, read
+from orchestrator.observers.checkpoint import (
+    FILE,
+    Checkpoint,
+    CheckpointError,
+    Checkpoints,
+    half_written,
+    read,
+)
 from orchestrator.observers.checkpoint_meta import problem_of
 from orchestrator.results.folder import ResultFolderError, check_writable
 
