@@ -67,8 +67,8 @@ def run(request: ReportRequest, console: Console) -> int:
     else:
         write_report(results, path, request.bearing)
     for result in results:
-        action, reasons = conclusion(result)
-        console.print(f"{result.name} - {action}: {reasons}", highlight=False, markup=False, soft_wrap=True)
+        said = conclusion(result).sentence(result.name)
+        console.print(said, highlight=False, markup=False, soft_wrap=True)
     size = path.stat().st_size / 1e6
     console.print(f"\nReport in {path} ({size:.1f} MB)", highlight=False, markup=False, soft_wrap=True)
     return 0

@@ -18,7 +18,7 @@ from orchestrator.results.ledger import ledger_of
 from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown
 from orchestrator.results.signals.orders import order_amplitudes, probe_signals
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, defect_statistics
-from orchestrator.results.verdicts.judge import Action, action_of, grounds, worst
+from orchestrator.results.verdicts.conclusion import Conclusion, conclude
 from orchestrator.results.verdicts.verdict import Grade
 from orchestrator.results.windows import Phase
 
@@ -49,13 +49,11 @@ def finished(result: Result) -> bool:
     return str(result.record.attrs.get("status", "finished")) == Outcome.FINISHED.value
 
 
-def conclusion(result: Result) -> tuple[Action, str]:
-    """What follows from a run, and from which figures; nothing where it did not finish and broke no limit."""
-    found = worst(result.verdicts)
-    action = action_of(found)
-    if not found or (not finished(result) and action is not Action.TRIP):
-        return Action.UNKNOWN, str(result.record.attrs.get("message", "")) or "the run gives no figures"
-    return action, grounds(found) or "every figure is within its limit"
+def conclusion(result: Result) -> Conclusion:
+    """What follows from a run, and from which figures."""
+    attributes = result.record.attrs
+    obstacle = "" if finished(result) else str(attributes.get("message", "")) or str(attributes["status"])
+    return conclude(result.verdicts, obstacle)
 
 
 def trust(result: Result) -> Iterator[Fact]:

@@ -7,20 +7,14 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from orchestrator.report.encode import squeezed, to_json
-from orchestrator.report.facts import (
-    BEARING_HEADS,
-    bearing_lines,
-    conclusion,
-    finished,
-    trust,
-)
+from orchestrator.report.facts import BEARING_HEADS, bearing_lines, conclusion, finished, trust
 from orchestrator.report.html import Markup, dot, joined, row, table, tag, void
 from orchestrator.report.library import require_library
 from orchestrator.report.panels.orbits import LEGEND
 from orchestrator.report.panels.panel import Panel
 from orchestrator.report.source import Result
-from orchestrator.results.verdicts.judge import Action, worst
-from orchestrator.results.verdicts.verdict import Verdict
+from orchestrator.results.verdicts.conclusion import Action
+from orchestrator.results.verdicts.verdict import Verdict, worst
 
 _HERE = Path(__file__).parent
 _LOOKS = {Action.TRIP: "beyond", Action.INSPECT: "close", Action.TOLERABLE: "within", Action.UNKNOWN: "none"}
@@ -96,8 +90,8 @@ def _header(title: str, results: Sequence[Result]) -> Markup:
 
 def _run(result: Result, *, several: bool) -> Markup:
     """The card of one run: what follows, from what, and how far to trust it."""
-    action, reasons = conclusion(result)
-    word, _, rest = action.partition(": ")
+    found = conclusion(result)
+    word, _, rest = found.action.partition(": ")
     name = (tag("h3", _key(result), result.name),) if several or not finished(result) else ()
     facts = joined(
         joined(
@@ -107,7 +101,7 @@ def _run(result: Result, *, several: bool) -> Markup:
     )
     return tag(
         "div", *name, tag("p", tag("span", word.capitalize(), klass="action"), f" - {rest}" if rest else ""),
-        tag("p", reasons), tag("dl", facts), klass=f"run {_LOOKS[action]}",
+        tag("p", found.grounds), tag("dl", facts), klass=f"run {_LOOKS[found.action]}",
     )  # fmt: skip
 
 

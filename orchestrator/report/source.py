@@ -17,9 +17,9 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.results.figures import style
 from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.statistics import analysed_bearing, contact_threshold
-from orchestrator.results.verdicts.judge import judge, own_limits, worst
+from orchestrator.results.verdicts.judge import judge, own_limits
 from orchestrator.results.verdicts.limits import Limits
-from orchestrator.results.verdicts.verdict import Verdict
+from orchestrator.results.verdicts.verdict import Verdict, worst
 from orchestrator.results.windows import Phase, phases
 
 SUMMARY_FILE = "summary.json"

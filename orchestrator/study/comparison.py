@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
+from orchestrator.results.verdicts.conclusion import Conclusion, conclude
 from orchestrator.results.verdicts.judge import judge
 from orchestrator.results.verdicts.limits import load_limits, own_file
 from orchestrator.results.verdicts.verdict import Verdict
@@ -73,6 +75,13 @@ class Comparison:
     def shaft(self, depth: str, phase: str) -> ShaftStatistics:
         """Statistics of the shaft; raises `NotEvaluatedError`."""
         return self.runs[depth].require(phase).shaft
+
+    @cached_property
+    def conclusions(self) -> dict[str, Conclusion]:
+        """What an engineer would conclude at each depth: of its own run alone, from every limit."""
+        return {
+            depth: conclude(self.verdicts.get(depth, ()), run.unfinished) for depth, run in self.runs.items()
+        }
 
     @property
     def names(self) -> str:

@@ -20,7 +20,6 @@ from orchestrator.results.quantities import GAP
 from orchestrator.results.summary import without_infinities
 from orchestrator.results.windows import Phase
 from orchestrator.study.comparison import Comparison
-from orchestrator.study.conclusions import Limits, conclude
 from orchestrator.study.depth_table import DepthRow, depth_rows
 from orchestrator.study.verdict_table import verdict_tables
 
@@ -44,11 +43,6 @@ class Report:
     def __init__(self, comparison: Comparison, fine: Comparison | None = None) -> None:
         self.found, self.fine = comparison, fine
 
-    @property
-    def limits(self) -> Limits:
-        """What the conclusions are drawn against."""
-        return Limits.of(self.found.seat)
-
     def findings(self) -> Iterator[RenderableType]:
         """A table of figures for each phase."""
         depths = list(self.found.runs)
@@ -69,6 +63,10 @@ class Report:
             size = f"{100 * change:+.2g} % ({depth.upper()})" if depth else "-"
             table.add_row(f"{row.label}, {row.phase}", size)
         return table
+
+    def criteria(self) -> Iterator[RenderableType]:
+        """Sections on what else the runs are held against."""
+        yield from ()
 
     def notes(self) -> Iterator[RenderableType]:
         """Sections at the end."""
@@ -124,10 +122,10 @@ class Report:
         )
         yield from _failures(found)
         yield from self.findings()
-        sentences = [Text(item.sentence()) for item in conclude(found, self.limits)]
-        limits = Text(self.limits.text(), style="dim")
-        yield from section("What an engineer would have concluded", [*sentences, limits])
         yield from section("Every limit, where most of it is used", verdict_tables(found))
+        sentences = (Text(item.sentence(depth.upper())) for depth, item in found.conclusions.items())
+        yield from section("What an engineer would have concluded", sentences)
+        yield from self.criteria()
         if fine is not None:
             yield from _failures(fine)
             heading = f"Check: {fine.settings.text()} in place of {found.settings.text()}"
@@ -165,9 +163,7 @@ class Report:
             "runs": {depth: asdict(end) for depth, end in found.ended.items()},
             **self.data(found),
             "verdicts": {d: [asdict(v) for v in judged] for d, judged in found.verdicts.items()},
-            "conclusions": [
-                {**asdict(item), "sentence": item.sentence()} for item in conclude(found, self.limits)
-            ],
+            "conclusions": [{"depth": d, **asdict(item)} for d, item in found.conclusions.items()],
             "statistics": {depth: asdict(run) for depth, run in found.runs.items()},
         }
 

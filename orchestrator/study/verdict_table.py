@@ -9,8 +9,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from orchestrator.results.verdicts.judge import action_of, worst
-from orchestrator.results.verdicts.verdict import Grade, Verdict
+from orchestrator.results.verdicts.verdict import Grade, Verdict, worst
 from orchestrator.study.comparison import Comparison
 
 _STYLES = {Grade.WITHIN: "green", Grade.CLOSE: "yellow", Grade.BEYOND: "bold red"}
@@ -30,7 +29,7 @@ def verdict_tables(found: Comparison) -> Iterator[RenderableType]:
     for row in rows:
         cells = [_cell(verdicts.get((row.limit, row.phase))) for verdicts in by_depth.values()]
         table.add_row(row.limit, row.phase, row.bound_text(), *cells)
-    actions = [action_of(verdicts).partition(":")[0] for verdicts in found.verdicts.values()]
+    actions = [found.conclusions[depth].action.partition(":")[0] for depth in by_depth]
     table.add_row("what follows", "", "", *actions, style="bold")
     yield table
     sources = dict.fromkeys(f"{row.limit.partition(',')[0]}: {row.source_text()}" for row in rows)

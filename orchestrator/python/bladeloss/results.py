@@ -56,8 +56,8 @@ def verdicts(run: Run, *, limits: str | Path | None = None) -> xr.Dataset:
 def conclusion(run: Run) -> str:
     """What an engineer would conclude from a run, and from which figures, in a line."""
     record = run if isinstance(run, xr.Dataset) else load(run)
-    action, grounds = conclusion_of(results_of([record])[0])
-    return f"{action}; {grounds}"
+    found = conclusion_of(results_of([record])[0])
+    return f"{found.action}; {found.grounds}"
 
 
 def report(*runs: Run, out: str | Path = FILE, bearing: str | None = None) -> Path:

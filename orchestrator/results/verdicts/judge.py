@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +21,6 @@ from orchestrator.results.quantities import (
     RATIO,
     STRESS,
     VIBRATION,
-    shown,
 )
 from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, shaft_statistics
@@ -33,15 +31,6 @@ from orchestrator.results.windows import Phase, phases
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
-
-
-class Action(StrEnum):
-    """What is done with the machine."""
-
-    TRIP = "trip: shut the train down at once"
-    INSPECT = "inspect: go on no longer than needed, open the bearing"
-    TOLERABLE = "tolerable: no reason to shut the train down"
-    UNKNOWN = "no conclusion"
 
 
 def own_limits(record: xr.Dataset) -> Limits:
@@ -73,28 +62,6 @@ def judge(record: xr.Dataset, limits: Limits) -> tuple[Verdict, ...]:
     if limits.stress is not None:
         verdicts += _stress(record, found, limits)
     return tuple(verdicts)
-
-
-def worst(verdicts: Iterable[Verdict]) -> tuple[Verdict, ...]:
-    """Of each limit in each phase the verdict at the place where the most of it is used, the worst first."""
-    best: dict[tuple[str, str], Verdict] = {}
-    for verdict in verdicts:
-        key = verdict.limit, verdict.phase
-        if key not in best or _order(verdict) > _order(best[key]):
-            best[key] = verdict
-    return tuple(sorted(best.values(), key=_order, reverse=True))
-
-
-def action_of(verdicts: Iterable[Verdict]) -> Action:
-    """What follows from the verdicts of a machine."""
-    beyond = [verdict for verdict in verdicts if verdict.grade is Grade.BEYOND]
-    if any(verdict.trips for verdict in beyond):
-        return Action.TRIP
-    return Action.INSPECT if beyond else Action.TOLERABLE
-
-
-def _order(verdict: Verdict) -> tuple[int, bool, float, float]:
-    return verdict.grade.rank, verdict.trips, verdict.share, abs(verdict.value)
 
 
 @dataclass(frozen=True)
@@ -213,13 +180,3 @@ def _stress(record: xr.Dataset, found: tuple[Phase, ...], limits: Limits) -> Ite
         yield held(
             limit, "normal stress", place, STRESS, row.stress_max, limit.largest, note=note, instant=when
         )
-
-
-def grounds(verdicts: Iterable[Verdict]) -> str:
-    """The figures that a conclusion rests on, in a line."""
-    return "; ".join(
-        f"{v.limit} {shown(v.value, v.quantity)} at {v.place}"
-        + (f" against {v.bound_text()}" if v.bound > 0.0 else f" ({v.note})")
-        for v in verdicts
-        if v.grade is Grade.BEYOND
-    )

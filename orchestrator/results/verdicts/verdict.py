@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -128,3 +129,17 @@ def held(
     return Verdict(
         words, *place, quantity, value, bound, share, grade, note, instant, limit.source, limit.read, trips
     )
+
+
+def worst(verdicts: Iterable[Verdict]) -> tuple[Verdict, ...]:
+    """Of each limit in each phase the verdict at the place where the most of it is used, the worst first."""
+    best: dict[tuple[str, str], Verdict] = {}
+    for verdict in verdicts:
+        key = verdict.limit, verdict.phase
+        if key not in best or _order(verdict) > _order(best[key]):
+            best[key] = verdict
+    return tuple(sorted(best.values(), key=_order, reverse=True))
+
+
+def _order(verdict: Verdict) -> tuple[int, bool, float, float]:
+    return verdict.grade.rank, verdict.trips, verdict.share, abs(verdict.value)

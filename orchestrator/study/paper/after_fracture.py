@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT, RATIO, SHARE, STRESS, shown
 from orchestrator.study.comparison import Comparison
-from orchestrator.study.conclusions import FULL_FILM
 from orchestrator.study.paper import published
+from orchestrator.study.paper.criterion import least_gap
 from orchestrator.study.paper.requirement import Requirement
 
 Finding = tuple[str, Sequence[Requirement]]
@@ -59,7 +59,7 @@ def gaps_after(found: Comparison) -> Finding:
         Requirement.below("contact force V3", after3.contact_largest, v3.contact_from, FORCE),
         Requirement.below("smallest gap V2 after", gap2, before, GAP, strict=True),
         Requirement.above("smallest gap V3 after", gap3, gap2, GAP, strict=True),
-        Requirement.above("smallest gap V3 for a full film", gap3, FULL_FILM * found.seat.roughness, GAP),
+        Requirement.above("smallest gap V3 for a full film", gap3, least_gap(found), GAP),
     ]
     touching = [
         depth.upper()

@@ -15,8 +15,8 @@ from rich.text import Text
 
 from orchestrator.scenario.file import load_scenario
 from orchestrator.study.comparison import Comparison
-from orchestrator.study.conclusions import Limits
-from orchestrator.study.paper.published import DEPTHS, STRESS_LIMIT
+from orchestrator.study.paper.criterion import by_criterion, criterion_text
+from orchestrator.study.paper.published import DEPTHS
 from orchestrator.study.paper.requirement import Requirement, Row, Verdict
 from orchestrator.study.paper.rows import rows
 from orchestrator.study.report import Report, section
@@ -57,11 +57,6 @@ class PaperReport(Report):
 
     beside = "against the paper"
 
-    @property
-    def limits(self) -> Limits:
-        """What the conclusions are drawn against."""
-        return Limits.of(self.found.seat, STRESS_LIMIT)
-
     @cached_property
     def rows(self) -> tuple[Row, ...]:
         """The table."""
@@ -98,6 +93,12 @@ class PaperReport(Report):
         outcome = f"The verdict changes in rows {', '.join(flips)}." if flips else "No verdict changes."
         return Group(table, Text(outcome, style="bold red" if flips else "bold green"))
 
+    def criteria(self) -> Iterator[RenderableType]:
+        """What the paper would conclude, which asks for less than all limits."""
+        sentences = [Text(item.sentence(depth.upper())) for depth, item in by_criterion(self.found)]
+        limits = Text(criterion_text(self.found), style="dim")
+        yield from section("The paper's criterion alone", [*sentences, limits])
+
     def notes(self) -> Iterator[RenderableType]:
         """How each row is computed, and where the paper speaks of it."""
         grid = Table.grid(padding=(0, 1))
@@ -114,7 +115,8 @@ class PaperReport(Report):
                 {**asdict(row), "verdict": row.verdict.value, "missed_by": row.missed_by}
                 | {"requirements": [{**asdict(item), "met": item.met} for item in row.requirements]}
                 for row in rows(found)
-            ]
+            ],
+            "paper_criterion": [{"depth": d, **asdict(item)} for d, item in by_criterion(found)],
         }
 
     def change_data(self, fine: Comparison) -> list[dict[str, Any]]:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, SOMMERFELD, STRESS, Quantity, shown
 from orchestrator.study.comparison import Comparison
-from orchestrator.study.conclusions import FULL_FILM
 from orchestrator.study.depth_run import NotEvaluatedError
 from orchestrator.study.paper import published
 from orchestrator.study.paper.after_fracture import (
@@ -18,6 +17,7 @@ from orchestrator.study.paper.after_fracture import (
     moments,
     orderings,
 )
+from orchestrator.study.paper.criterion import FULL_FILM
 from orchestrator.study.paper.published import DEPTHS, Published
 from orchestrator.study.paper.reasons import reason
 from orchestrator.study.paper.requirement import Requirement, Row, Verdict

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from orchestrator.results.verdicts.judge import Action, action_of, grounds, judge, own_limits, worst
+from orchestrator.results.verdicts.conclusion import Action, conclude
+from orchestrator.results.verdicts.judge import judge, own_limits
 from orchestrator.results.verdicts.limits import (
     LimitsError,
     ShaftVibration,
@@ -14,7 +15,7 @@ from orchestrator.results.verdicts.limits import (
     own_file,
     to_text,
 )
-from orchestrator.results.verdicts.verdict import Grade
+from orchestrator.results.verdicts.verdict import Grade, worst
 from orchestrator.scenario.file import load_scenario
 from tests.orchestrator.results import synthetic_record
 
@@ -73,8 +74,8 @@ def test_contact_has_no_allowance_and_trips(verdicts):
     assert (found.bound_text(), found.share_text(), found.trips) == ("none", "-", True)
     assert found.grade is Grade.BEYOND
     assert not [v for v in verdicts if v.limit == "solid contact" and v.phase == "before"]
-    assert action_of(verdicts) is Action.TRIP
-    assert grounds(worst(verdicts)).startswith("solid contact")
+    found = conclude(verdicts)
+    assert found.action is Action.TRIP and found.grounds.startswith("solid contact")
 
 
 def test_vibration_is_the_largest_peak_to_peak_at_a_probe_in_its_zone(verdicts, record):
@@ -125,8 +126,8 @@ def test_a_calm_machine_is_tolerable():
     calm = synthetic_record.record("v3", fracture=None, end=0.4).isel(bearing=[8])
     found = judge(calm, load_limits())
     assert {v.phase for v in found} == {"steady", "all"}
-    assert action_of(found) is Action.TOLERABLE
-    assert grounds(found) == ""
+    assert conclude(found).action is Action.TOLERABLE
+    assert conclude(found).grounds == "every figure is within its limit"
 
 
 def test_values_of_the_machine_come_first_and_travel_with_the_record(tmp_path, record):

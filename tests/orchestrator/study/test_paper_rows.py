@@ -3,24 +3,33 @@
 import csv
 import json
 import math
-from dataclasses import replace
+import re
+from dataclasses import dataclass, replace
 from io import StringIO
 
 import numpy as np
 import pytest
 
-from orchestrator.results.quantities import GAP, RATIO
+from orchestrator.results.quantities import GAP, RATIO, VIBRATION
+from orchestrator.results.verdicts.conclusion import Action
+from orchestrator.results.verdicts.verdict import held
 from orchestrator.scenario.file import load_scenario, with_overrides
-from orchestrator.study.conclusions import Action, Limits, conclude
 from orchestrator.study.depth_run import DepthRun, read_run
 from orchestrator.study.paper import published
+from orchestrator.study.paper.criterion import by_criterion
 from orchestrator.study.paper.report import PaperReport, largest_change, speaks_of
 from orchestrator.study.paper.requirement import Requirement, Row, Verdict
 from orchestrator.study.paper.rows import rows
 from tests.orchestrator.results import synthetic_record
-from tests.orchestrator.study.paper_runs import FINE, SEAT, runs, spoiled
+from tests.orchestrator.study.paper_runs import FINE, runs, spoiled
 
-LIMITS = Limits.of(SEAT, published.STRESS_LIMIT)
+
+@dataclass(frozen=True)
+class NoLimit:
+    """A limit of its own."""
+
+    source: str
+    read: bool = True
 
 
 def with_run(found, run):
@@ -130,32 +139,35 @@ def test_rows_say_why_they_cannot_be_evaluated():
     assert "V2 process-died" in table[0].obstacle
 
 
-def test_what_an_engineer_concludes_follows_from_contact_gap_and_stress():
+def test_the_papers_criterion_asks_for_contact_gap_and_stress():
+    def actions(found):
+        return {depth: item.action for depth, item in by_criterion(found)}
+
     found = runs()
-    assert [item.action for item in conclude(found, LIMITS)] == [
-        Action.TRIP,
-        Action.TOLERABLE,
-        Action.TOLERABLE,
-    ]
-    assert (
-        conclude(found, LIMITS)[0]
-        .sentence()
-        .startswith("V1 - trip: shut the train down at once: solid contact 20 %")
-    )
+    assert list(actions(found).values()) == [Action.TRIP, Action.TOLERABLE, Action.TOLERABLE]
+    assert dict(by_criterion(found))["v1"].grounds.startswith("solid contact 20 %")
     narrow = spoiled(found, "v2", "after", least_gap_min=9.9e-6)
-    assert conclude(narrow, LIMITS)[1].action is Action.INSPECT
+    assert actions(narrow)["v2"] is Action.INSPECT
     strained = spoiled(found, "v3", "after", stress_max=published.STRESS_LIMIT * 1.01)
-    assert conclude(strained, LIMITS)[2].action is Action.INSPECT
+    assert actions(strained)["v3"] is Action.INSPECT
     cut = replace(found.runs["v2"], unfinished="interrupted at t = 1.5 s")
-    unknown = conclude(with_run(found, cut), LIMITS)[1]
-    assert unknown.action is Action.UNKNOWN and "interrupted" in unknown.sentence()
+    unknown = dict(by_criterion(with_run(found, cut)))["v2"]
+    assert unknown.action is Action.UNKNOWN and "interrupted" in unknown.grounds
 
 
-def test_without_a_limit_of_the_stress_none_is_judged():
-    found = spoiled(runs(), "v3", "after", stress_max=1e9)
-    item = conclude(found, Limits.of(SEAT))[2]
-    assert item.action is Action.TOLERABLE and item.grounds.endswith("largest stress 1000.0 N/mm²")
-    assert "No limit of the stress is known" in Limits.of(SEAT).text()
+def test_an_engineer_holds_every_depth_against_every_limit():
+    """What the paper's criterion lets pass may still break a limit, and the table says which."""
+    shaking = held(NoLimit("own"), "shaft vibration", ("after", "rear"), VIBRATION, 3e-4, 2e-4, trips=True)
+    calm = held(NoLimit("own"), "least film", ("after", "rear"), GAP, 3e-5, 1e-5, share=1.0 / 3.0)
+    found = replace(runs(), verdicts={"v1": (shaking,), "v2": (calm, shaking), "v3": (calm,)})
+    text = PaperReport(found).to_text()
+    assert re.search(r"what follows +trip +trip +tolerable", text)
+    words = " ".join(text.split())
+    assert "V2 - trip: shut the train down at once: shaft vibration 300 µm at rear against 200 µm." in words
+    assert "V2 - tolerable" in text.partition("The paper's criterion alone")[2]
+    data = json.loads(PaperReport(found).to_json())
+    assert [item["action"].partition(":")[0] for item in data["conclusions"]] == ["trip", "trip", "tolerable"]
+    assert data["paper_criterion"][1]["action"].startswith("tolerable")
 
 
 def test_a_finer_resolution_tells_what_it_changes():
