@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,7 +16,7 @@ from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.master.graph import Connection
 from orchestrator.master.system import Wiring, port_connections
 from orchestrator.ssp.structure import Component, SspError, Structure
-from orchestrator.ssp.units import definition
+from orchestrator.ssp.units import UnitDefinition, conversion, definition
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import likely
 
@@ -74,7 +75,7 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     except (ArchiveError, FmuError) as error:
         text = str(error).removeprefix(f"{path}: ").replace(f"{folder.resolve()}/", "")
         raise SspError(f"{path}: {text}") from None
-    components = tuple(_in_units(c, files[c.name], path) for c in structure.components)
+    components = tuple(_in_units(c, files[c.name], structure.units, path) for c in structure.components)
     structure = replace(structure, components=components)
     marker = port.at_bearing(1, port.JOURNAL[0])
     rotors = [c for c in structure.components if marker in files[c.name].variables]
@@ -91,19 +92,39 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     return Contents(structure, train, rotor, bearings, files, wiring)
 
 
-def _in_units(component: Component, file: FmuFile, path: Path) -> Component:
-    """Convert the values that the SSP gives a component to the units of its FMU."""
+def _in_units(
+    component: Component, file: FmuFile, defined: Mapping[str, UnitDefinition], path: Path
+) -> Component:
+    """Convert the values of a component to the units of its FMU, in which its connectors are, too."""
     known = {u.name: definition(u.name, u.baseUnit) for u in file.description.unitDefinitions}
-    values: dict[str, Value] = {}
-    for name, given in component.given.items():
+
+    def unit_of(name: str) -> UnitDefinition:
         variable = file.variables.get(name)
         unit = (variable.unit or "") if variable else ""
+        return known.get(unit) or definition(unit, vars(UNITS[unit]) if unit in UNITS else None)
+
+    values: dict[str, Value] = {}
+    for name, given in component.given.items():
         try:
-            values[name] = given.in_unit(
-                known.get(unit) or definition(unit, vars(UNITS[unit]) if unit in UNITS else None)
-            )
+            values[name] = given.in_unit(unit_of(name))
         except ValueError as error:
             raise SspError(f"{path}: {component.name}: {name} = {given.value!r}: {error}") from None
+        if isinstance(values[name], float) and not math.isfinite(values[name]) and name != "fracture.time":
+            raise SspError(f"{path}: {component.name}: {name} = {given.value!r}; allowed is a finite number")
+    for connector in component.connectors:
+        own = unit_of(connector.name)
+        unit = defined.get(connector.unit) or definition(connector.unit, None)
+        if not connector.unit or unit.name == own.name:
+            continue
+        try:
+            same = conversion(unit, own) == (1.0, 0.0)
+        except ValueError:
+            same = False
+        if not same:
+            raise SspError(
+                f"{path}: {component.name}: connector {connector.name} in {unit.name!r}; allowed is the unit "
+                f"of its FMU, {own.name or '1'!r}"
+            )
     return replace(component, parameters=values)
 
 

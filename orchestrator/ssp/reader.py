@@ -11,7 +11,7 @@ from orchestrator.fmi.xml import XmlError, read_xml
 from orchestrator.ssp.structure import SspError, Structure
 from orchestrator.ssp.systems import Systems
 from orchestrator.ssp.values import Bindings, unit_definitions
-from orchestrator.ssp.writer import DEFINITION, NAMESPACES, OSP, RUN
+from orchestrator.ssp.writer import DEFINITION, NAMESPACES, OMS, OSP, RUN
 
 _VERSIONS = ("1.0", "2.0")
 
@@ -66,6 +66,7 @@ def _structure(path: Path, folder: Path, root: Element) -> Structure:
         raise SspError(f"{error} (SSP version {version})" if version != "1.0" else str(error)) from None
     experiment = root.find("ssd:DefaultExperiment", NAMESPACES)
     step, run = _annotations(experiment, path)
+    step = _master_step(system, path) if step is None else step
     times = {} if experiment is None else experiment.attrib
     start = _number(path, "startTime", times.get("startTime"), least=-math.inf)
     if start:
@@ -83,6 +84,7 @@ def _structure(path: Path, folder: Path, root: Element) -> Structure:
         tolerance=_number(path, "tolerance", run.get("tolerance")),
         record_interval=_number(path, "recordInterval", run.get("recordInterval")),
         analysed_bearing=run.get("analysedBearing"),
+        units=units,
     )
 
 
@@ -98,6 +100,14 @@ def _annotations(experiment: Element | None, path: Path) -> tuple[float | None, 
             if annotation.get("type") == RUN and own is not None:
                 run = dict(own.attrib)
     return step, run
+
+
+def _master_step(system: Element, path: Path) -> float | None:
+    """Return the macro step as OMSimulator keeps it."""
+    annotations = system.findall("ssd:Annotations/ssc:Annotation", NAMESPACES)
+    masters = (a.find(".//oms:FixedStepMaster", NAMESPACES) for a in annotations if a.get("type") == OMS)
+    master = next((m for m in masters if m is not None), None)
+    return None if master is None else _number(path, "stepSize", master.get("stepSize"))
 
 
 def _number(path: Path, name: str, text: str | None, least: float = 0.0) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from orchestrator.fmi.file import FmuFile
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import Wiring
 from orchestrator.scenario.file import replaced
+from orchestrator.scenario.parameters import offset_names
 from orchestrator.scenario.problems import shape_problems, time_problems, unbalance_problems
 from orchestrator.scenario.scenario import FilmSettings, Scenario
 from orchestrator.ssp.contents import Contents, value_of
@@ -23,6 +25,7 @@ from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.checks import film_problems
 
 DEFAULT_STEP, DEFAULT_END = 1e-4, 1.0
+_FARTHEST = 2.0  # clearances from the centre of a bearing to its journal's start
 _ALLOWED = ("end", "step", "coupling", "tolerance", "ledger")
 
 _FILM = {key: name for key, name in port.BEARING_KEYS.items() if key not in FilmSettings.model_fields}
@@ -102,6 +105,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     problems = [text for _, text in (*time_problems(scenario, train), *unbalance_problems(scenario, train))]
     problems += _speed_problems(contents)
     problems += _film_problems(contents)
+    problems += _start_problems(contents)
     if problems:
         raise ScenarioError(str(path), problems)
     return scenario
@@ -124,6 +128,22 @@ def _film_problems(contents: Contents) -> Iterator[str]:
                 for key, value in ((key, value_of(contents, component, name)) for key, name in _FILM.items())
             }
             yield from (f"{component.name}: {text}" for text in film_problems(values))
+
+
+def _start_problems(contents: Contents) -> Iterator[str]:
+    """Journals that would start far outside of their bores."""
+    for index, component in enumerate(contents.bearings, 1):
+        if not contents.files[component.name].variables.keys() >= {"clearance", *offset_names()}:
+            continue  # of somebody else
+        names = [port.at_bearing(index, f"start.{axis}") for axis in "xy"]
+        place = [float(value_of(contents, contents.rotor, name)) for name in names]
+        centre = [float(value_of(contents, component, f"offset.{axis}")) for axis in "xy"]
+        ratio = math.dist(place, centre) / float(value_of(contents, component, "clearance"))
+        if ratio > _FARTHEST:
+            yield (
+                f"{contents.rotor.name}: {names[0]}, y = {place[0]:g}, {place[1]:g}: "
+                f"{ratio:.3g} clearances from the centre of {component.name}; allowed are {_FARTHEST:g}, in m"
+            )
 
 
 def _depth(file: FmuFile) -> str:

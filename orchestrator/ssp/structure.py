@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fmus.port.variable import Value
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.graph import Connection
-from orchestrator.ssp.units import Given
+from orchestrator.ssp.units import Given, UnitDefinition
 
 ROTOR = "rotor"
 """Name of the rotor's component, and of its unit."""
@@ -85,6 +85,8 @@ class Structure:
         In s.
     analysed_bearing : str or None
         Shown in summary and figures.
+    units : mapping
+        Units that the system definition defines.
     """
 
     name: str
@@ -97,3 +99,4 @@ class Structure:
     tolerance: float | None = None
     record_interval: float | None = None
     analysed_bearing: str | None = None
+    units: Mapping[str, UnitDefinition] = field(default_factory=dict)

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
 from orchestrator.master.graph import Connection
 from orchestrator.ssp.structure import Component, Connector, SspError
-from orchestrator.ssp.units import Given, UnitDefinition, conversion
+from orchestrator.ssp.units import Given, UnitDefinition, conversion, definition
 from orchestrator.ssp.values import Bindings, suppressed, transformation
 from orchestrator.ssp.writer import NAMESPACES
 
 _FMU = "application/x-fmu-sharedlibrary"
 _GIVEN = ("input", "parameter", "inout")  # connectors of a system that take values from outside
 
+_ROUNDING = 1e-12  # of factors there and back
+_REAL = ("Real", "Float64", "Float32")  # of SSP 1.0, and of 2.0
+
 Point = tuple[str, str]
 """Hierarchical name of an element, empty for the system at the top, and name of its connector."""
+
+
+class _Way(NamedTuple):
+    """A connection in one of its directions."""
+
+    target: Point
+    factor: float
+    offset: float
+    converts: bool
+    """Whether units are converted on it."""
 
 
 class Systems:
@@ -50,7 +65,7 @@ class Systems:
         self._path, self._bindings, self._units = path, bindings, units
         self.components: list[Component] = []
         self._connectors: dict[Point, Connector] = {}
-        self._ways: defaultdict[Point, list[tuple[Point, float, float]]] = defaultdict(list)
+        self._ways: defaultdict[Point, list[_Way]] = defaultdict(list)
         self._starts: dict[Point, bool] = {}  # whether a connection in the file begins there
         self._gather(system, "", {})
 
@@ -88,6 +103,8 @@ class Systems:
                 f"{self._path}: {name}: implementation "
                 f"{element.get('implementation')!r}; allowed is CoSimulation"
             )
+        if name in (c.name for c in self.components):
+            raise SspError(f"{self._path}: {name} is the name of two components; allowed is a name for each")
         connectors = tuple(self._read_connectors(element, name).values())
         source, given = unquote(element.get("source", "")), self._bindings.of(element) | values
         description = element.get("description", "")
@@ -96,8 +113,12 @@ class Systems:
     def _read_connectors(self, element: Element, name: str) -> dict[str, Connector]:
         found = {}
         for c in element.findall("ssd:Connectors/ssd:Connector", NAMESPACES):
-            real = c.find("ssc:Real", NAMESPACES)
-            unit = "" if real is None else real.get("unit", "")
+            if any(child.tag.endswith("}Dimension") for child in c):
+                raise SspError(
+                    f"{self._path}: {name}: connector {c.get('name')} is an array; allowed are numbers"
+                )
+            reals = (c.find(f"ssc:{kind}", NAMESPACES) for kind in _REAL)
+            unit = next((real.get("unit", "") for real in reals if real is not None), "")
             connector = Connector(c.get("name", ""), c.get("kind", ""), unit)
             found[connector.name] = self._connectors[name, connector.name] = connector
         return found
@@ -123,22 +144,21 @@ class Systems:
                     value = Given(value.value, self._unit(unit), value.factor, value.offset)
                 values.setdefault(led_to, value.through(factor, offset, not suppressed(element)))
         for source, target in ((start, end), (end, start)):
-            by, plus = (1.0, 0.0) if suppressed(element) else self._conversion(source, target, where)
-            self._ways[source].append((target, factor * by, factor * plus + offset))
+            self._ways[source].append(_Way(target, factor, offset, not suppressed(element)))
         self._starts[start] = True
         self._starts.setdefault(end, False)
 
-    def _conversion(self, source: Point, target: Point, where: str) -> tuple[float, float]:
+    def _conversion(self, source: Point, target: Point) -> tuple[float, float]:
         units = [self._connectors[point].unit for point in (source, target) if point in self._connectors]
         if len(units) < 2 or not all(units):
             return 1.0, 0.0
         try:
             return conversion(self._unit(units[0]), self._unit(units[1]))
         except ValueError as error:
-            raise SspError(f"{where}: {error}") from None
+            raise SspError(f"{self._path}: {'.'.join(source)} -> {'.'.join(target)}: {error}") from None
 
     def _unit(self, name: str) -> UnitDefinition:
-        return self._units.get(name, UnitDefinition(name))
+        return self._units.get(name, definition(name, None))
 
     def connections(self) -> Iterator[Connection]:
         """Yield them from output to input; the order of their ends in the file carries no meaning."""
@@ -155,14 +175,16 @@ class Systems:
         while waiting:
             point, factor, offset = waiting.pop(0)
             if point[0] in names and point != start:
-                if (factor, offset) != (1.0, 0.0):
+                if not (math.isclose(factor, 1.0, rel_tol=_ROUNDING) and abs(offset) < _ROUNDING):
                     raise SspError(
                         f"{self._path}: {'.'.join(start)} -> {'.'.join(point)}: by transformation or units x "
                         f"comes as {factor:g} x + {offset:g}; signals must travel as they are"
                     )
                 yield point
                 continue
-            for other, by, plus in self._ways[point]:
-                if other not in seen:
-                    seen.add(other)
-                    waiting.append((other, by * factor, by * offset + plus))
+            for way in self._ways[point]:
+                if way.target not in seen:
+                    seen.add(way.target)
+                    by, plus = self._conversion(point, way.target) if way.converts else (1.0, 0.0)
+                    by, plus = way.factor * by, way.factor * plus + way.offset
+                    waiting.append((way.target, by * factor, by * offset + plus))

@@ -10,6 +10,7 @@ from orchestrator.case.simulate import execute
 from orchestrator.errors import FmuError
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
+from tests.faults import fault
 from tests.orchestrator.foreign import refused
 
 SSD = "SystemStructure.ssd"
@@ -130,6 +131,84 @@ def test_the_definition_counts_or_is_refused(old, new, words, small_ssp, small_f
         with ssp_case(path):
             return
     assert words in refused(path, room, small_fmus)
+
+
+KN = '<ssd:Units><ssc:Unit name="kN"><ssc:BaseUnit kg="1" m="1" s="-2" factor="1000" /></ssc:Unit>'
+FORCE = 'name="F0.Fx" kind="output">\\s*<ssc:Real unit="N" />'
+JOINT = 'name="bearing\\[1\\].F0.Fx" kind="input">\\s*<ssc:Real unit="N" />'
+
+
+def connector(name, kind, kilonewton):
+    return f'name="{name}" kind="{kind}">{kilonewton}'
+
+
+@pytest.mark.parametrize(
+    ("outer", "inner", "words"),
+    [
+        (
+            '<ssc:Real unit="kN" />',
+            '<ssc:Real unit="N" />',
+            "x comes as 1000 x + 0; signals must travel as they",
+        ),
+        (
+            '<ssc:Float64 unit="kN" />',
+            '<ssc:Real unit="N" />',
+            "x comes as 1000 x + 0; signals must travel as they",
+        ),
+        (
+            '<ssc:Real unit="kN" />',
+            "<ssc:Real />",
+            "front: connector F0.Fx in 'kN'; allowed is the unit of its FMU, 'N'",
+        ),
+        ('<ssc:Real unit="kN" />', '<ssc:Real unit="kN" />', "in 'kN'; allowed is the unit of its FMU, 'N'"),
+        ('<ssc:Real unit="lbf" />', '<ssc:Real unit="N" />', "unit 'lbf' is defined nowhere"),
+        (
+            '<ssc:Real unit="N" /><ssc:Dimension size="3" />',
+            '<ssc:Real unit="N" />',
+            "F0.Fx is an array; allowed",
+        ),
+    ],
+)
+def test_connectors_are_in_the_units_of_their_fmu(outer, inner, words, small_ssp, small_fmus, room, tmp_path):
+    changes = [(FORCE, connector("F0.Fx", "output", outer)), ("<ssd:Units>", KN)]
+    changes.append((JOINT, connector("bearing[1].F0.Fx", "input", inner)))
+    assert words in refused(edited(small_ssp, tmp_path / "my.ssp", {SSD: changes}), room, small_fmus)
+
+
+@fault(
+    "input",
+    "an SSP whose start is infinite, or lies metres outside of a bearing",
+    "exit 2; component, parameter, value, what is allowed",
+    guard="orchestrator.ssp.scenario:_start_problems",
+)
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("INF", "rotor: bearing[1].start.x = inf; allowed is a finite number"),
+        ("1.0", "clearances from the centre of front; allowed are 2, in m"),
+    ],
+)
+def test_a_start_far_outside(value, words, small_ssp, small_fmus, room, tmp_path):
+    name = "bearing[1].start.x"
+    path = with_parameter(small_ssp, tmp_path, "rotor", name, real(name, value))
+    assert words in refused(path, room, small_fmus)
+
+
+def test_two_components_of_one_name(small_ssp, small_fmus, room, tmp_path):
+    changes = [('<ssd:Component name="rear"', '<ssd:Component name="front"')]
+    path = edited(small_ssp, tmp_path / "my.ssp", {SSD: changes})
+    assert "front is the name of two components" in refused(path, room, small_fmus)
+
+
+def test_the_step_of_omsimulator_counts_where_there_is_no_other(small_ssp, tmp_path):
+    osp = '<ssc:Annotation type="com.opensimulationplatform">.*?</ssc:Annotation>'
+    step = ('stepSize="[^"]*"', 'stepSize="1e-05"')
+    for changes, expected in (([step], 1e-4), ([(osp, ""), step], 1e-5)):
+        with ssp_case(edited(small_ssp, tmp_path / "my.ssp", {SSD: changes})) as case:
+            assert case.scenario.step == expected
+    changes = [(osp, ""), ('stepSize="[^"]*"', 'stepSize="0"')]
+    with pytest.raises(SspError, match="stepSize = '0'; allowed is a number above 0"):
+        read_ssp(edited(small_ssp, tmp_path / "my.ssp", {SSD: changes}), tmp_path / "x")
 
 
 def test_version_2_is_read_and_named_where_something_is_refused(small_ssp, tmp_path):
