@@ -14,29 +14,34 @@ import pytest  # noqa: E402
 from filelock import FileLock  # noqa: E402
 from threadpoolctl import threadpool_limits  # noqa: E402
 
+from bearing_fmu import depths  # noqa: E402
 from orchestrator.fmi.folder import build  # noqa: E402
 from rotor_fmu.train.file import load_train  # noqa: E402
 
 threadpool_limits(1)  # where a plugin of pytest has loaded numpy before
 
-_COMPILE = """
-from bearing_fmu import depths
-from bearing_fmu.film import make_film
-from tests.bearing_fmu.bearings import TURBINE
-for depth in depths.films():
-    make_film(depth, TURBINE).respond([1e-4, -2e-4, 1e-6, 0.0], [0.0] * 4, 157.0)
-"""
-
 
 def pytest_configure(config):
     """Compile the kernels before the workers start, which would each compile them.
 
-    Nor does each of their processes compile the modules that it imports, whatever the environment says.
+    On two cores: the first depth takes as long as the others. Nor does each of their processes compile the
+    modules that it imports, whatever the environment says.
     """
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-        root = Path(__file__).parents[1]
-        subprocess.run([sys.executable, "-c", _COMPILE], cwd=root, check=False)
+        command = [
+            sys.executable,
+            "-m",
+            "tests.bearing_fmu.cold_kernels",
+            str(config.cache.mkdir("cold-kernels")),
+        ]
+        films = depths.films()
+        started = [
+            subprocess.Popen([*command, *part], cwd=Path(__file__).parents[1])
+            for part in (films[:1], films[1:])
+        ]
+        for process in started:
+            process.wait()
 
 
 @pytest.fixture(scope="session")
