@@ -80,6 +80,9 @@ class Depth:
         Whether an evaluation takes some microseconds only, which threads would but delay.
     boundaries : tuple of str
         What it offers of ``film.boundary``.
+    ahead : str
+        ``module:function`` that does for a bearing's values once what its films then share, and returns a
+        line about it, empty where it was done before; empty: nothing to be done.
     colour : str
         Of its lines in figures; empty: the next that is free.
     """
@@ -95,6 +98,7 @@ class Depth:
     affine: bool = False
     quick: bool = False
     boundaries: tuple[str, ...] = ("guembel",)
+    ahead: str = ""
     colour: str = ""
 
     @property
@@ -107,9 +111,18 @@ class Depth:
 
     def make(self, values: Mapping[str, Value]) -> Film:
         """Make the film of these parameters; ValueError names the one that is out of range."""
-        module, _, function = self.film.partition(":")
-        make: Callable[[Mapping[str, Value]], Film] = getattr(import_module(module), function)
+        make: Callable[[Mapping[str, Value]], Film] = _found(self.film)
         return make(values)
+
+    def prepare(self, values: Mapping[str, Value]) -> str:
+        """Do what is to be done `ahead` for these parameters; ValueError as of `make`."""
+        return str(_found(self.ahead)(values)) if self.ahead else ""
+
+
+def _found(place: str) -> Any:
+    """What ``module:name`` names."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
 
 
 _DEPTHS: dict[str, Depth] = {}
@@ -165,6 +178,16 @@ register(
         text="Journal bearing: Reynolds equation of the aligned journal, with solid contact.",
         film="bearing_fmu.films.aligned.depth:make",
         boundaries=("guembel", "reynolds"),
+        quick=True,
+    )
+)
+register(
+    Depth(
+        name="table",
+        title="Reynolds, aligned, looked up",
+        text="Journal bearing: the aligned journal's Reynolds equation as a table, with solid contact.",
+        film="bearing_fmu.films.table.depth:make",
+        ahead="bearing_fmu.films.table.depth:ahead",
         quick=True,
     )
 )

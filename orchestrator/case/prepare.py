@@ -13,7 +13,7 @@ from orchestrator.case.case import Case, folder_case, ssp_case
 from orchestrator.case.checkpoint_folder import check_checkpoint
 from orchestrator.case.request import RunRequest
 from orchestrator.errors import OrchestratorError
-from orchestrator.fmi.folder import ensure_fmus
+from orchestrator.fmi.folder import do_ahead, ensure_fmus
 from orchestrator.fmi.trust import require_trust
 from orchestrator.fmi.voucher import vouch, vouched
 from orchestrator.observers.checkpoint import Checkpoint, CheckpointError
@@ -65,7 +65,9 @@ def prepare(
         foreign = case.units.foreign(case.scenario)
         trusted = require_trust(foreign, trust=request.trust, known=known)
         if not request.is_ssp:
-            ensure_fmus(request.fmus, case.train, needed_depths(case.scenario, case.train), console)
+            needed = needed_depths(case.scenario, case.train)
+            ensure_fmus(request.fmus, case.train, needed, console)
+            do_ahead(case.scenario, case.train, needed, console)
         vouchers = vouch(trusted) if request.checkpoint is not None and trusted else {}
         yield replace(case, about={**case.about, "trusted": vouchers})
 

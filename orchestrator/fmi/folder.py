@@ -15,7 +15,8 @@ from fmus.build.recipe import Recipe
 from orchestrator.errors import FmuError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.scenario.file import read_train
-from orchestrator.scenario.scenario import is_fmu
+from orchestrator.scenario.parameters import bearing_parameters
+from orchestrator.scenario.scenario import Scenario, is_fmu
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.train import Train
 
@@ -73,6 +74,37 @@ def ensure_fmus(folder: Path, train: Train, names: Collection[str], console: Con
     if built:
         console.print(f"Built {', '.join(str(path) for path in built)}", highlight=False, soft_wrap=True)
     return built
+
+
+def do_ahead(scenario: Scenario, train: Train, names: Collection[str], console: Console) -> None:
+    """Do what the depths do once for bearings of a kind, such as to build a table; tell of it.
+
+    Parameters
+    ----------
+    scenario, train : Scenario, Train
+        Films and bearings.
+    names : collection of str
+        Depths in use.
+    console : rich.console.Console
+        Told what was done.
+
+    Raises
+    ------
+    FmuError
+        When a bearing cannot have this depth.
+    """
+    for depth in depths.depths():
+        if not depth.ahead or depth.name not in names:
+            continue
+        for seat in train.bearings:
+            if not seat.has_film or depth.name not in (scenario.depth_of(seat.name), scenario.linear_from):
+                continue
+            try:
+                line = depth.prepare(bearing_parameters(seat, scenario.film))
+            except ValueError as error:
+                raise FmuError(f"bearing {seat.name}: {error}") from None
+            if line:
+                console.print(line, highlight=False, soft_wrap=True)
 
 
 @one_blas_thread()

@@ -17,7 +17,7 @@ from rich.table import Table
 
 from bearing_fmu.depths import LINEAR
 from fmus import port
-from orchestrator.fmi.folder import ensure_fmus, fmu_folder
+from orchestrator.fmi.folder import do_ahead, ensure_fmus, fmu_folder
 from orchestrator.fmi.trust import own_bearings, require_trust
 from orchestrator.linear.operating_point import (
     HERTZ,
@@ -166,7 +166,9 @@ class LinearCase:
 
     def _ensure(self) -> None:
         require_trust(own_bearings(self.scenario), trust=self.request.trust)
-        ensure_fmus(self.request.fmus, self.train, needed_depths(self.scenario, self.train), self.console)
+        needed = needed_depths(self.scenario, self.train)
+        ensure_fmus(self.request.fmus, self.train, needed, self.console)
+        do_ahead(self.scenario, self.train, needed, self.console)
 
     @property
     def unbalance(self) -> NDArray[np.complex128]:

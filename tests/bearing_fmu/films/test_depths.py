@@ -36,7 +36,7 @@ def test_v2_is_v1_at_zero_tilt(q, columns, rows):
     assert v2.p_max == pytest.approx(v1.p_max, rel=5e-3)
 
 
-@pytest.mark.parametrize("depth", ["v2", "v3"])
+@pytest.mark.parametrize("depth", ["v2", "table", "v3"])
 def test_aligned_depths_ignore_tilts(depth):
     film = make_film(depth, TURBINE)
     q, v = np.array([0.3, -0.6, 0.0, 0.0]), np.array([0.1, 0.0, 0.0, 0.0])
@@ -107,8 +107,8 @@ def test_friction_power_of_the_tilted_film():
 
 
 def test_depth_names():
-    assert depths.films() == ("v1", "v2", "v3")
-    with pytest.raises(ValueError, match=r"bearing depth 'v4': allowed are v1, v2, v3"):
+    assert depths.films() == ("v1", "v2", "table", "v3")
+    with pytest.raises(ValueError, match=r"bearing depth 'v4': allowed are v1, v2, table, v3"):
         make_film("v4", TURBINE)
     with pytest.raises(ValueError, match="boundary = 'reynolds': the short film has guembel only"):
         make_film("v3", plain(0.5, boundary="reynolds"))

@@ -1,0 +1,1 @@
+"""Depth table: the film of the aligned journal, looked up."""
