@@ -131,7 +131,7 @@ def write_outputs(
             c = -scale * result[DAMPING + 4 * i + j]
             draft[OUT_K + 4 * i + j] = k
             draft[OUT_C + 4 * i + j] = c
-            constant += k * inputs[j] + c * inputs[4 + j]
+            constant += k * (inputs[j] - inputs[8 + j]) + c * (inputs[4 + j] - inputs[12 + j])
         draft[OUT_F0 + i] = constant
     least, z, centre = least_gap(bore, state[4:8])
     turning = _turning(bore, scales, state, result)

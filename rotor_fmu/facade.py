@@ -25,7 +25,9 @@ _LAW = len(port.LAW)
 def _train_and_layout(train_text: str, starts_text: str) -> tuple[Train, Layout]:
     train = Train.from_json(train_text)
     names = [b.name for b in train.bearings], [w.name for w in train.wheels]
-    return train, Layout(port.rotor(*names, train.nodes, json.loads(starts_text)))
+    return train, Layout(
+        port.rotor(*names, train.nodes, json.loads(starts_text), moving=train.has_moving_housings)
+    )
 
 
 class RotorSlave(UnitSlave):
@@ -45,7 +47,8 @@ class RotorSlave(UnitSlave):
             law[:, 4:20].reshape(bearings, 4, 4),
             law[:, 20:].reshape(bearings, 4, 4),
         )
-        self._journals = self.values[layout.outputs].reshape(bearings, 8)
+        # Journals, and behind them the housings where these move.
+        self._motion = self.values[layout.outputs].reshape(-1, bearings, 8)
         self._built_for: dict[str, Any] | None = None
 
     def _value(self, name: str) -> float:
@@ -96,7 +99,13 @@ class RotorSlave(UnitSlave):
             if not orbit:
                 parts[1:] = np.zeros_like(parts[0]), np.zeros_like(parts[0])
             self._rotor.start_from_positions(*parts, time=self.start_time)
-        self._journals[:] = self._rotor.kinematics()
+        self._show()
+
+    def _show(self) -> None:
+        """Write the motion of journals and housings."""
+        self._motion[0] = self._rotor.kinematics()
+        if len(self._motion) > 1:
+            self._motion[1] = self._rotor.housings()
 
     def starts_on(self) -> int:
         """Return 1, for the speed, unless the start is asked for under the laws at the inputs."""
@@ -112,12 +121,18 @@ class RotorSlave(UnitSlave):
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
         self._rotor.step(time, step, *self._law, float(self.inputs[0]))
-        self._journals[:] = self._rotor.kinematics()
+        self._show()
 
     def observe(self, group: str) -> None:
-        """Write extremes over the shaft, energies, works, or the fields over all nodes."""
+        """Write extremes over the shaft, wrenches on the foundation, energies, works, or the fields."""
         if group == "extremes":
             self.values[self.layout.block("amplitude.max", "stress.max_z")] = self._rotor.extremes()
+            return
+        if group == "foundation":
+            wrench = self._rotor.foundation_wrench()
+            last = port.at_bearing(len(wrench), port.FOUNDATION[-1])
+            block = self.layout.block(port.at_bearing(1, port.FOUNDATION[0]), last)
+            self.values[block] = wrench.ravel()
             return
         if group == "energy":
             self.values[self.layout.block(port.ENERGY[0], port.ENERGY[-1])] = self._rotor.energy()

@@ -53,4 +53,4 @@ def rotor_recipe(train: Train, starts: Mapping[str, port.Value] | None = None) -
 
 def _variables(train: Train) -> tuple[port.Variable, ...]:
     names = [b.name for b in train.bearings], [w.name for w in train.wheels]
-    return port.rotor(*names, train.nodes, default_starts(train))
+    return port.rotor(*names, train.nodes, default_starts(train), moving=train.has_moving_housings)

@@ -41,7 +41,7 @@ class RelaxingFilm:
         stiffness, damping, force = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros(4)
         stiffness[:2, :2], damping[:2, :2] = (STIFFNESS + ADDED * share) * np.eye(2), DAMPING * np.eye(2)
         force[:2] = -STIFFNESS * q[:2] - DAMPING * v[:2] - element
-        law = force + stiffness @ inputs[:4] + damping @ inputs[4:8]
+        law = force + stiffness @ (inputs[:4] - inputs[8:12]) + damping @ v
         others = dict.fromkeys((v.name for v in port.BEARING_OUTPUTS[40:]), 0.0)
         others |= {"h_min": (1.0 - distance) * self.clearance, "eccentricity": distance}
         others["h_min_centre"] = others["h_min"]

@@ -34,7 +34,7 @@ class LinearFilm:
         stiffness, damping = np.zeros((4, 4)), np.zeros((4, 4))
         stiffness[:2, :2], damping[:2, :2] = self.scale * STIFFNESS, self.scale * DAMPING
         force = -stiffness @ q - damping @ v
-        law = force + stiffness @ inputs[:4] + damping @ inputs[4:8]
+        law = force + stiffness @ (inputs[:4] - inputs[8:12]) + damping @ v
         others = dict.fromkeys((v.name for v in port.BEARING_OUTPUTS[40:]), 0.0)
         others |= {"h_min": (1.0 - distance) * self.clearance, "eccentricity": distance}
         others["h_min_centre"] = others["h_min"]

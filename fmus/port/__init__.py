@@ -13,8 +13,8 @@ The affine law: a bearing returns, besides the wrench ``F(q, v)`` on the rotor, 
 
     K = -dF/dq,   C = -dF/dv,   F0 = F + K q + C v
 
-so that ``F0 - K q' - C v'`` is the wrench near the state.  The rotor integrates
-that law; see the README of this folder.
+so that ``F0 - K q' - C v'`` is the wrench near the state; q and v are those of the journal in its housing,
+less the housing's own.  The rotor integrates that law; see the README of this folder.
 """
 
 from __future__ import annotations
@@ -34,6 +34,8 @@ from fmus.port.bearing import (
 from fmus.port.connector import (
     F0,
     FORCE,
+    FOUNDATION,
+    HOUSING,
     JOURNAL,
     KINEMATICS,
     LAW,
@@ -72,6 +74,8 @@ __all__ = [
     "F0",
     "FAILURE",
     "FORCE",
+    "FOUNDATION",
+    "HOUSING",
     "JOURNAL",
     "KINEMATICS",
     "LAW",

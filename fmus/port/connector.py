@@ -33,6 +33,8 @@ STIFFNESS_UNITS = (("N/m", "N/rad"), ("N", "N.m/rad"))
 DAMPING_UNITS = (("N.s/m", "N.s/rad"), ("N.s", "N.m.s/rad"))
 
 JOURNAL = tuple(f"journal.{name}" for name in KINEMATICS)
+HOUSING = tuple(f"housing.{name}" for name in KINEMATICS)
+FOUNDATION = tuple(f"foundation.{name}" for name in WRENCH)
 FORCE = tuple(f"wrench.{name}" for name in WRENCH)
 F0 = tuple(f"F0.{name}" for name in WRENCH)
 K = tuple(f"K[{i},{j}]" for i in range(1, 5) for j in range(1, 5))

@@ -6,7 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from fmus.port.balance import BALANCE, TRACK_WORK, WORK
-from fmus.port.connector import KINEMATIC_UNITS, NOMINAL_SPEED, POSITION, SPEED, kinematics, law
+from fmus.port.connector import (
+    KINEMATIC_UNITS,
+    NOMINAL_SPEED,
+    POSITION,
+    SPEED,
+    WRENCH,
+    WRENCH_TEXT,
+    WRENCH_UNITS,
+    kinematics,
+    law,
+)
 from fmus.port.failure import FAILURE
 from fmus.port.start import ORBIT_FOLLOWS, START_PARTS, shape_follows, start_names
 from fmus.port.variable import Value, Variable, with_starts
@@ -87,6 +97,22 @@ def _rotor_journal(i: int, owner: str) -> Iterator[Variable]:
         yield replace(v, starts_on=ORBIT_FOLLOWS + start_names(i, POSITION[index % 4]))
 
 
+def _housing(i: int, owner: str) -> Iterator[Variable]:
+    """Yield the outputs of the housing at bearing `i`."""
+    for v in kinematics(f"bearing[{i}].housing", f"{owner}, housing", "output"):
+        yield replace(v, starts_on=())
+
+
+def _on_foundation(i: int, owner: str, shape: tuple[str, ...]) -> Iterator[Variable]:
+    """Yield the wrench on the foundation at bearing `i`."""
+    for name, unit, text in zip(WRENCH, WRENCH_UNITS, WRENCH_TEXT, strict=True):
+        described = f"{owner}, on the foundation: {text}"
+        yield Variable(
+            f"bearing[{i}].foundation.{name}", "output", unit, described,
+            nominal=1e6, lazy="foundation", starts_on=shape,
+        )  # fmt: skip
+
+
 def _seat(i: int, name: str) -> Iterator[Variable]:
     """Yield start, load and position at bearing `i`."""
     for part, text in START_PARTS:
@@ -111,6 +137,8 @@ def rotor(
     wheels: Sequence[str],
     nodes: int,
     starts: Mapping[str, Value] | None = None,
+    *,
+    moving: bool = False,
 ) -> tuple[Variable, ...]:
     """The rotor unit of a train.
 
@@ -122,6 +150,8 @@ def rotor(
         Nodes of the unreduced shaft.
     starts : mapping, optional
         Start values of the train, by variable name, in place of the port's.
+    moving : bool
+        Whether the housings of its bearings move.
 
     Returns
     -------
@@ -144,7 +174,11 @@ def rotor(
             variables.append(replace(v, description=f"{name}: {v.description}"))
     for i, name in enumerate(bearings, 1):
         variables.extend(_rotor_journal(i, name))
+    for i, name in enumerate(bearings if moving else (), 1):
+        variables.extend(_housing(i, name))
     shape = shape_follows(len(bearings), len(wheels))
+    for i, name in enumerate(bearings if moving else (), 1):
+        variables.extend(_on_foundation(i, name, shape))
     for name, unit, text, nominal in _SUMMARY:
         summary = Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes")
         variables.append(replace(summary, starts_on=shape))

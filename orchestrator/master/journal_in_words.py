@@ -40,7 +40,7 @@ def with_state(end: RunEnd, system: System, offsets: NDArray[np.float64]) -> str
         index = names.index(end.unit)
     else:
         index = int(np.argmax(np.where(finite, eccentricity, -1.0)))
-    tilt = 1e6 * (system.journals[index, 2:4] - offsets[index, 2:])
+    tilt = 1e6 * (system.motion[index, 2:4] - offsets[index, 2:])
     gap = 1e6 * system.responses[index, RESPONSE["h_min"]]
     return (
         f"{end.message}; last state of {names[index]}: eccentricity ratio {eccentricity[index]:.4g}, "

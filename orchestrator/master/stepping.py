@@ -139,7 +139,7 @@ class Stepper:
             system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
         self._system, self.scheme, self._on_step = system, scheme, on_step
         self._tolerance = tolerance
-        self._before = system.journals.copy()
+        self._before = system.motion.copy()
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
         self.level = 0
@@ -170,7 +170,7 @@ class Stepper:
         """Take a step; whether twice of it would do, or None if it was taken back."""
         if self._marks:
             self._system.rollback.mark()
-        self._before[:] = self._system.journals
+        self._before[:] = self._system.motion
         try:
             advance = self._advance(time, step)
             sizes = self._sizes(advance)
@@ -202,7 +202,7 @@ class Stepper:
         """Carry the system over a step, and estimate its error."""
         system = self._system
         advance = self.scheme.advance(system, time, step)
-        return advance._replace(of_length=error_of_step(self._before, system.journals, system.squares, step))
+        return advance._replace(of_length=error_of_step(self._before, system.motion, system.squares, step))
 
     def _sizes(self, advance: Advance) -> tuple[float, float]:
         """Relative defect of a step, and weighted relative error from its length."""

@@ -57,6 +57,8 @@ class System:
     ----------
     journals : ndarray (bearings, 8)
         q and v of each journal, the rotor's outputs.
+    housings : ndarray (bearings, 8) or None
+        q and v of each housing, the rotor's outputs; None where they stand rigidly.
     responses : ndarray (bearings, 52)
         The bearings' outputs, columns as in `RESPONSE`.
     laws : ndarray (bearings, 36)
@@ -74,17 +76,23 @@ class System:
         self.bearings = tuple(bearings)
         self.wiring = wiring
         rotor_inputs = (port.SPEED, *_at_bearings(n, port.LAW))
+        moving = port.at_bearing(1, port.HOUSING[0]) in rotor.file.variables
         rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
+        if moving:
+            rotor_outputs += tuple(_at_bearings(n, port.HOUSING))
         self.graph = Graph(
             [
                 (rotor, rotor_inputs, rotor_outputs),
                 *((bearing, _BEARING_INPUTS, _BEARING_OUTPUTS) for bearing in bearings),
             ],
-            port_connections(rotor.name, [b.name for b in bearings], wiring),
+            port_connections(rotor.name, [b.name for b in bearings], wiring, moving=moving),
         )
         inputs, outputs = self.graph.inputs, self.graph.outputs
         self.journals: Array = outputs[: n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
-        self.responses: Array = outputs[n * _PER_JOURNAL :].reshape(n, len(_BEARING_OUTPUTS))
+        self.housings: Array | None = None
+        if moving:
+            self.housings = outputs[n * _PER_JOURNAL : 2 * n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
+        self.responses: Array = outputs[len(rotor_outputs) :].reshape(n, len(_BEARING_OUTPUTS))
         self.laws: Array = inputs[1 : 1 + n * _PER_LAW].reshape(n, _PER_LAW)
         self._rotor_speed = inputs[:1]
         self.bearing_inputs: Array = inputs[1 + n * _PER_LAW :].reshape(n, len(_BEARING_INPUTS))
@@ -100,6 +108,11 @@ class System:
     def units(self) -> tuple[Unit, ...]:
         """Rotor and bearings."""
         return (self.rotor, *self.bearings)
+
+    @property
+    def motion(self) -> Array:
+        """Motion of each journal in its housing (bearings, 8): `journals` itself where that is rigid."""
+        return self.journals if self.housings is None else self.journals - self.housings
 
     @property
     def forces(self) -> Array:
@@ -164,7 +177,7 @@ class System:
             Overwritten by the next call.
         """
         tangents = self.laws[:, 4:].reshape(-1, 2, 4, 4)
-        np.matmul(tangents, self.journals.reshape(-1, 2, 4, 1), out=self._reaction)
+        np.matmul(tangents, self.motion.reshape(-1, 2, 4, 1), out=self._reaction)
         np.subtract(self.forces, self.laws[:, :4], out=self._defect)
         self._defect += self._reaction[:, 0, :, 0]
         self._defect += self._reaction[:, 1, :, 0]
@@ -178,11 +191,13 @@ class System:
             unit.close()
 
 
-def port_connections(rotor: str, bearings: Sequence[str], wiring: Wiring) -> Iterator[Connection]:
-    """Connections of the port between units of these names."""
+def port_connections(
+    rotor: str, bearings: Sequence[str], wiring: Wiring, *, moving: bool = False
+) -> Iterator[Connection]:
+    """Connections of the port between units of these names; `moving`: the rotor moves the housings, too."""
     sources = port.LAW if wiring is Wiring.LAW else port.FORCE
     for index, bearing in enumerate(bearings, 1):
-        for name in port.JOURNAL:
+        for name in (*port.JOURNAL, *(port.HOUSING if moving else ())):
             yield Connection(rotor, port.at_bearing(index, name), bearing, name)
         for output, name in zip(sources, port.LAW, strict=False):
             yield Connection(bearing, output, rotor, port.at_bearing(index, name))

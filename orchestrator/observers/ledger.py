@@ -139,9 +139,9 @@ class Ledger(Observer):
         self._before = (arrays["before0"], arrays["before1"], arrays["before2"])
 
     def _values(self) -> tuple[Array, Array, Array]:
-        """Journals, wrenches, and their parts from contact."""
+        """Journals in their housings, wrenches, and their parts from contact."""
         system = self._system
-        return system.journals.copy(), system.forces.copy(), system.responses[:, _CONTACT].copy()
+        return system.motion.copy(), system.forces.copy(), system.responses[:, _CONTACT].copy()
 
     def _law(self, journals: Array) -> Array:
         """Wrenches of the laws that the rotor used last."""

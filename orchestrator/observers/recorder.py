@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmus import port
 from orchestrator.fmi.block import Block
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
@@ -46,7 +47,7 @@ KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 
 SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")
 FIELDS = ("x", "y", "amplitude", "stress")
-_KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields")
+_KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields", "housings", "foundation")
 
 
 class Recorder(Observer):
@@ -82,6 +83,12 @@ class Recorder(Observer):
         self._extremes = np.empty((capacity, bearings, len(EXTREMES)))
         self._shaft = np.empty((capacity, len(SHAFT)))
         self._fields = np.empty((capacity, len(FIELDS), nodes), dtype=np.float32)
+        moving = bearings if system.housings is not None else 0
+        self._housings = np.empty((capacity, moving, 8))
+        self._foundation = np.empty((capacity, moving, len(port.FOUNDATION)))
+        self._foundation_values = np.empty((moving, len(port.FOUNDATION)))
+        on_foundation = [port.at_bearing(i, name) for i in range(1, moving + 1) for name in port.FOUNDATION]
+        self._foundation_block = Block(system.rotor, on_foundation, self._foundation_values.reshape(-1))
         self._now = np.empty((bearings, len(EXTREMES)))
         self._since = np.full_like(self._now, -np.inf)
         self._peaks = np.full_like(self._now, -np.inf)
@@ -139,6 +146,10 @@ class Recorder(Observer):
         self._shaft_block.get()
         self._shaft[k] = self._shaft_values[: len(SHAFT)]
         self._fields[k] = self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1)
+        if self._system.housings is not None:
+            self._foundation_block.get()
+            self._housings[k] = self._system.housings
+            self._foundation[k] = self._foundation_values
         self.size = k + 1
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -163,6 +174,16 @@ class Recorder(Observer):
     def journals(self) -> Array:
         """Motion q, v of the journals, (records, bearings, 8)."""
         return self._journals[: self.size]
+
+    @property
+    def housings(self) -> Array:
+        """Motion q, v of the housings, (records, bearings, 8); no bearings where they stand rigidly."""
+        return self._housings[: self.size]
+
+    @property
+    def foundation(self) -> Array:
+        """Wrenches on the foundation, (records, bearings, 4); likewise."""
+        return self._foundation[: self.size]
 
     def response(self, name: str) -> Array:
         """Bearing output `name`, one of `KEPT`, (records, bearings)."""

@@ -88,7 +88,10 @@ class Result:
 
     def journal(self, bearing: str) -> NDArray[np.float64]:
         """Journal from the centre of its bearing, shape (2, time), in m."""
-        return self.of("displacement", bearing) - self.of("offset", bearing)[:, None]
+        centre = self.of("offset", bearing)[:, None]
+        if "housing_displacement" in self.record:
+            centre = centre + self.of("housing_displacement", bearing)
+        return self.of("displacement", bearing) - centre
 
     def touching(self, bearing: str) -> NDArray[np.bool_]:
         """When surfaces touch."""

@@ -105,3 +105,11 @@ def _node_names(train: Train) -> list[str]:
 
 def _words(unit: str, text: str) -> dict[str, str]:
     return {"units": unit, "long_name": text}
+
+
+def in_housing(record: xr.Dataset) -> xr.DataArray:
+    """Displacement of the journals less that of their housings, as probes on the bearings read it [m]."""
+    displacement = record["displacement"]
+    if "housing_displacement" in record:
+        displacement = displacement - record["housing_displacement"]
+    return displacement

@@ -58,6 +58,8 @@ class Quantity:
 
 FORCE = Quantity("bearing force", "MN", 1e-6, ".2f")
 MOMENT = Quantity("bearing moment", "MN m", 1e-6, ".2f")
+FOUNDATION = Quantity("force on the foundation", "MN", 1e-6, ".2f")
+HOUSING = Quantity("displacement of the housing", "µm", 1e6, ".1f")
 GAP = Quantity("least gap", "µm", 1e6, ".1f")
 AMPLITUDE = Quantity("vibration amplitude", "mm", 1e3, ".3f")
 STRESS = Quantity("normal stress", "N/mm²", 1e-6, ".1f")

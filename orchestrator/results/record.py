@@ -98,6 +98,7 @@ def make_record(
     variables: dict[str, Variable] = {
         **_bearing_variables(recorder),
         **_shaft_variables(recorder),
+        **_foundation_variables(recorder),
         **train_variables(scenario, train),
         "offset": (("bearing", "axis"), start.offsets[:, :2], _words("m", "bearing centre")),
         "offset_tilt": (
@@ -170,6 +171,21 @@ def _shaft_variables(recorder: Recorder) -> dict[str, Variable]:
     stress = _words("Pa", "normal stress from bending, both planes combined")
     result["stress"] = (("time", "node"), recorder.field("stress"), stress)
     return result
+
+
+def _foundation_variables(recorder: Recorder) -> dict[str, Variable]:
+    """Motion of the housings and what acts on the foundation; nothing where they stand rigidly."""
+    housings, wrench = recorder.housings, recorder.foundation
+    if not housings.shape[1]:
+        return {}
+    vectors = {
+        "housing_displacement": (housings[..., 0:2], "m", "displacement of the bearing's housing"),
+        "housing_tilt": (housings[..., 2:4], "rad", "rotation of the bearing's housing"),
+        "housing_velocity": (housings[..., 4:6], "m/s", "velocity of the bearing's housing"),
+        "foundation_force": (wrench[..., :2], "N", "force on the foundation at the bearing"),
+        "foundation_moment": (wrench[..., 2:], "N m", "moment on the foundation at the bearing"),
+    }
+    return {name: (_BEARING_AXIS, x, _words(unit, text)) for name, (x, unit, text) in vectors.items()}
 
 
 def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message: str) -> dict[str, Any]:

@@ -204,6 +204,8 @@ def _state(at: xr.Dataset) -> str:
     if "time" not in at or "eccentricity" not in at:
         return ""
     tilt = 1e6 * (at["tilt"].values - at["offset_tilt"].values)
+    if "housing_tilt" in at:
+        tilt = tilt - 1e6 * at["housing_tilt"].values
     return (
         f", worst at t = {float(at['time']):.6g} s (eccentricity ratio {float(at['eccentricity']):.4g}, "
         f"tilts {tilt[0]:.4g} and {tilt[1]:.4g} urad, least gap {1e6 * float(at['least_gap']):.4g} um)"

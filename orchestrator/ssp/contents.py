@@ -88,7 +88,8 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     surplus = {c.name for c in structure.components} - {rotor.name, *(c.name for c in bearings)}
     if surplus:
         raise SspError(f"{path}: {', '.join(sorted(surplus))}: joined to no bearing of {rotor.name}")
-    wiring = _wiring(structure, rotor, bearings, path)
+    moving = train.has_moving_housings
+    wiring = _wiring(structure, rotor, bearings, moving, path)
     return Contents(structure, train, rotor, bearings, files, wiring)
 
 
@@ -151,10 +152,12 @@ def _in_order(structure: Structure, rotor: Component, count: int, path: Path) ->
         yield by_name[name]
 
 
-def _wiring(structure: Structure, rotor: Component, bearings: Iterable[Component], path: Path) -> Wiring:
+def _wiring(
+    structure: Structure, rotor: Component, bearings: Iterable[Component], moving: bool, path: Path
+) -> Wiring:
     found = set(structure.connections)
     names = [c.name for c in bearings]
-    wanted = {wiring: set(port_connections(rotor.name, names, wiring)) for wiring in Wiring}
+    wanted = {wiring: set(port_connections(rotor.name, names, wiring, moving=moving)) for wiring in Wiring}
     for wiring, connections in wanted.items():
         if found == connections:
             return wiring

@@ -86,7 +86,9 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
                 name=_identifier(name) + ("_force" if wiring is Wiring.FORCE else ""),
                 title=scenario.title,
                 components=components,
-                connections=tuple(port_connections(ROTOR, bearings, wiring)),
+                connections=tuple(
+                    port_connections(ROTOR, bearings, wiring, moving=train.has_moving_housings)
+                ),
                 end=scenario.end,
                 step=scenario.step,
                 coupling=scenario.coupling if wiring is Wiring.LAW else "gauss-seidel",

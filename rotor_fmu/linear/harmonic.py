@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from numpy.typing import ArrayLike, NDArray
 
-from rotor_fmu.linear.whirl import Bearings, journal_map, system_matrices
+from rotor_fmu.linear.whirl import Bearings, relative_motion, system_matrices
 from rotor_fmu.reduction.reduce import ReducedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
 
@@ -55,7 +55,8 @@ def unbalance_response(
     mass, damping, stiffness = system_matrices(shaft, speed, bearings)
     dynamic = stiffness - speed**2 * mass + 1j * speed * damping
     rotating = np.asarray(unbalance, dtype=np.complex128)[:, None] * np.array([1.0, -1j])
-    load = wheel_map(shaft).T @ (speed**2 * rotating.ravel())
+    load = np.zeros(len(mass.indptr) - 1, dtype=np.complex128)
+    load[: shaft.M.shape[0]] = wheel_map(shaft).T @ (speed**2 * rotating.ravel())
     x = sla.spsolve(sp.csc_array(dynamic), load)
     law = bearings.stiffness + 1j * speed * bearings.damping
     return HarmonicResponse(speed, _full(shaft, x), _wrench(shaft, x, law))
@@ -83,14 +84,14 @@ def static_response(
     bearings : Bearings
         Linearised bearings; their stiffness holds the shaft.
     gravity : float
-        g [m/s2].
+        g [m/s2].  A foundation is aligned under the weight, so that the housings stay.
 
     Returns
     -------
     shape, wrench : ndarray, (n,), (n_b, 4)
         [m], [rad]; [N], [N m].
     """
-    _, _, stiffness = system_matrices(shaft, 0.0, bearings)
+    _, _, stiffness = system_matrices(replace(shaft, foundation=None), 0.0, bearings)
     x = sla.spsolve(stiffness, gravity * shaft.gravity)
     return _full(shaft, x), _wrench(shaft, x, bearings.stiffness)
 
@@ -103,9 +104,9 @@ def wheel_map(shaft: ShaftModel | ReducedShaft) -> sp.csr_array:
 
 
 def _full(shaft: ShaftModel | ReducedShaft, x: NDArray) -> NDArray:
-    return shaft.T @ x if isinstance(shaft, ReducedShaft) else x
+    own = x[: shaft.M.shape[0]]
+    return shaft.T @ own if isinstance(shaft, ReducedShaft) else own
 
 
 def _wrench(shaft: ShaftModel | ReducedShaft, x: NDArray, law: NDArray) -> NDArray:
-    journals = (journal_map(shaft) @ x).reshape(-1, 4)
-    return -np.einsum("bij,bj->bi", law, journals)
+    return -np.einsum("bij,bj->bi", law, relative_motion(shaft, x))

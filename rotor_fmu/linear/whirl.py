@@ -1,7 +1,8 @@
 """Whirl modes of a rotating shaft, free or on linearised bearings, and the Campbell diagram.
 
 ``M q'' + (D + Ω G + B' C B) q' + (K + B' K_b B) q = 0`` with the bearings' 4x4
-stiffness and damping, solved for the eigenvalues of least modulus.
+stiffness and damping, solved for the eigenvalues of least modulus.  Where the bearings stand on pedestals
+or on a modal foundation, its modes follow the shaft's coordinates in q, and B q is journals less housings.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from numpy.typing import ArrayLike, NDArray
 
+from rotor_fmu.foundation.foundation import Foundation
 from rotor_fmu.reduction.reduce import ReducedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
 
@@ -115,7 +117,7 @@ def whirl_modes(
     kept = np.flatnonzero(values.imag > above)
     kept = kept[np.argsort(np.abs(values[kept]))][:count]
     kept = kept[np.argsort(values[kept].imag)]
-    shapes = vectors[:n, kept]
+    shapes = vectors[:n, kept]  # without those of a foundation
     if isinstance(shaft, ReducedShaft):
         shapes = shaft.T @ shapes
     deflection = np.abs(shapes.reshape(-1, 4, len(kept))[:, :2]).max(axis=(0, 1))
@@ -149,10 +151,35 @@ def system_matrices(
     """
     mass, damping, gyroscopic, stiffness, B = _parts(shaft)
     damping = damping + speed * gyroscopic
+    if bearings is not None and shaft.foundation is not None:
+        mass, damping, stiffness, B = _on_foundation(shaft.foundation, mass, damping, stiffness, B)
     if bearings is not None:
         stiffness = stiffness + B.T @ sp.block_diag(list(bearings.stiffness)) @ B
         damping = damping + B.T @ sp.block_diag(list(bearings.damping)) @ B
     return mass, sp.csc_array(damping), sp.csc_array(stiffness)
+
+
+def _on_foundation(
+    foundation: Foundation,
+    mass: sp.csc_array,
+    damping: sp.csc_array,
+    stiffness: sp.csc_array,
+    B: sp.csc_array,
+) -> tuple[sp.csc_array, ...]:
+    """Matrices and journals of the shaft with the foundation's modes behind its coordinates."""
+    own = np.ones(foundation.size), foundation.damping, foundation.omega**2
+    blocks = zip((mass, damping, stiffness), own, strict=True)
+    matrices = (sp.block_diag([A, sp.diags_array(values)], format="csc") for A, values in blocks)
+    return *matrices, sp.hstack([B, -sp.csc_array(foundation.shapes)], format="csc")
+
+
+def relative_motion(shaft: ShaftModel | ReducedShaft, x: NDArray) -> NDArray:
+    """Journals in their housings, (n_b, 4), from coordinates as in `system_matrices`."""
+    n = shaft.M.shape[0]
+    journals = journal_map(shaft) @ x[:n]
+    if len(x) > n and shaft.foundation is not None:
+        journals = journals - shaft.foundation.shapes @ x[n:]
+    return journals.reshape(-1, 4)
 
 
 @lru_cache(maxsize=8)

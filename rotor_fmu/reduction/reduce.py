@@ -17,6 +17,7 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
+from rotor_fmu.foundation.foundation import Foundation
 from rotor_fmu.reduction.irs import ReductionError, complemented, improved_reduced_system
 from rotor_fmu.reduction.masters import default_interface, default_masters
 from rotor_fmu.reduction.ritz import Basis, craig_bampton, guyan, symmetric
@@ -72,6 +73,8 @@ class ReducedShaft:
     history : tuple of tuple of float
         For IRS the natural frequencies [rad/s] of the elastic modes of one plane after each iteration,
         the first entry being Guyan's; else empty.
+    foundation : Foundation or None
+        What the bearings stand on, where that moves; it is not reduced.
     """
 
     M: Array
@@ -85,6 +88,7 @@ class ReducedShaft:
     method: str
     reason: str = ""
     history: tuple[tuple[float, ...], ...] = ()
+    foundation: Foundation | None = None
 
     @property
     def size(self) -> int:
@@ -228,4 +232,5 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
         gravity=T.T @ model.gravity,
         method=method,
         history=basis.history,
+        foundation=model.foundation,
     )

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from rotor_fmu.foundation.foundation import Foundation, foundation_of
 from rotor_fmu.shaft.beam import element_matrices
 from rotor_fmu.shaft.massless import with_trace
 from rotor_fmu.train.train import Train
@@ -49,6 +50,8 @@ class ShaftModel:
         The same load in the plane in which gravity lies.
     plane_dampers : scipy.sparse.csr_array, (2 N, 2 N), or None
         What elastic couplings, which have dampers of their own, add to the Rayleigh damping of one plane.
+    foundation : Foundation or None
+        What the bearings stand on, where that moves.
     """
 
     M: sp.csr_array
@@ -66,6 +69,7 @@ class ShaftModel:
     rayleigh: tuple[float, float]
     plane_gravity: Array
     plane_dampers: sp.csr_array | None = None
+    foundation: Foundation | None = None
 
     @property
     def nodes(self) -> int:
@@ -157,6 +161,7 @@ def assemble(train: Train) -> ShaftModel:
         rayleigh=(train.rayleigh_alpha, train.rayleigh_beta),
         plane_gravity=load,
         plane_dampers=dampers,
+        foundation=foundation_of(train),
     )
 
 

@@ -26,6 +26,7 @@ from rotor_fmu.train.checks import (
 )
 from rotor_fmu.train.coefficients import constant, table_text
 from rotor_fmu.train.joints import Nodes, with_joints
+from rotor_fmu.train.pedestal import with_foundation
 from rotor_fmu.train.schema import (
     BORE,
     COEFFICIENTS,
@@ -100,6 +101,8 @@ def load_train(name_or_path: str | Path) -> Train:
     if not problems:
         given = _coefficients(source, path.parent)
         train, found = _checked(source, rows if not in_table else [], given, in_table)
+        if train is not None and not found:
+            train, found = with_foundation(train, source.raw.get("foundation"), path.parent)
         in_table += unknown_materials(rows, source.raw.get("materials"))
     problems += (f"{path}: {text}" for text in source.located(found))
     problems += (f"{table}: {text}" for text in in_table)
@@ -202,6 +205,7 @@ def _train(
         assert data is not None
         entry = data.bearing[index]
         seat |= {"coefficients": given.get(index, ""), "has_film": entry.has_film, "bore": entry.bore_text}
+        seat["pedestal"] = entry.pedestal.pedestal if entry.pedestal else None
         if not seat["has_film"]:
             around = shoulders[max(seat["node"] - 1, 0) : seat["node"] + 1]
             journal = min(shoulder.outer_diameter for shoulder in around)

@@ -9,13 +9,10 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     ModelWrapValidatorHandler,
     PrivateAttr,
-    ValidationInfo,
     field_validator,
     model_validator,
 )
@@ -24,40 +21,11 @@ from pydantic_core import PydanticCustomError
 from fmus import port
 from rotor_fmu.train import bore as bores
 from rotor_fmu.train.coefficients import Matrix, matrix
-from rotor_fmu.train.units import converted
-
-Name = Annotated[
-    str,
-    Field(
-        pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.\-]{0,39}$",
-        description="1 to 40 letters, digits, spaces, points, hyphens and underscores, a letter or digit "
-        "first",
-    ),
-]
-"""Of trains, bearings, wheels, couplings and masses alike."""
+from rotor_fmu.train.entry import Entry, Name, angle, grade, positive, within
+from rotor_fmu.train.pedestal import PedestalEntry
 
 LEAST_LENGTH = 1e-5
 """Of a shoulder [m]; what is shorter is left over from sums of lengths and would cost digits."""
-
-
-def positive(high: float, unit: str, default: Any = ...) -> Any:
-    """Return a field for a number above 0 and up to `high`."""
-    return Field(default, gt=0.0, le=high, allow_inf_nan=False, description=unit)
-
-
-def within(low: float, high: float, unit: str, default: Any = ...) -> Any:
-    """Return a field for a number between `low` and `high`, ends included."""
-    return Field(default, ge=low, le=high, allow_inf_nan=False, description=unit)
-
-
-def angle(default: Any = ...) -> Any:
-    """Return a field for an angle of up to a turn either way."""
-    return within(-6.3, 6.3, "rad; did you give degrees?", default)
-
-
-def grade(default: Any = ...) -> Any:
-    """Return a field for a balance grade."""
-    return within(0.0, 0.1, "m/s; G2.5 is 2.5e-3", default)
 
 
 _LENGTH = "m; did you give mm?"
@@ -70,31 +38,7 @@ BORE = {"diameter": 1.0, "width": 0.5, "clearance": 5e-4, "viscosity": 0.02, "ro
 _Matrix = Annotated[Matrix | None, BeforeValidator(matrix)]
 
 
-class _Entry(BaseModel):
-    """Immutable; an unknown key is an error, true or "1" are no numbers, "450 mm" is one."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-    @field_validator("*", mode="before")
-    @classmethod
-    def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
-        assert info.field_name is not None
-        unit = unit_of(cls, info.field_name)
-        try:
-            return converted(value, unit) if unit else value
-        except ValueError as error:
-            raise PydanticCustomError("unit", "{allowed}", {"allowed": str(error)}) from None
-
-
-def unit_of(model: type[BaseModel], name: str) -> str:
-    """SI unit of a field, empty for one that is no measured number."""
-    field = model.model_fields[name]
-    if field.annotation in (str, Name):
-        return ""
-    return (field.description or "").partition(";")[0].strip()
-
-
-class ShoulderRow(_Entry):
+class ShoulderRow(Entry):
     """A row of shaft.csv, see the README of the rotor; lengths and diameters [m]."""
 
     length: float = positive(20.0, _LENGTH)
@@ -136,7 +80,7 @@ class ShoulderRow(_Entry):
         return self
 
 
-class MaterialEntry(_Entry):
+class MaterialEntry(Entry):
     """[materials.NAME]: E [Pa], nu, rho [kg/m3]; yield strength [Pa], which runs compare the stress with."""
 
     youngs_modulus: float = Field(gt=1e8, lt=1e13, description="Pa; did you give MPa?")
@@ -153,14 +97,14 @@ class MaterialEntry(_Entry):
         return value
 
 
-class DampingEntry(_Entry):
+class DampingEntry(Entry):
     """[damping]: Rayleigh coefficients alpha [1/s], beta [s]."""
 
     alpha: float = within(0.0, 1e4, "1/s", 0.0)
     beta: float = within(0.0, 1.0, "s", 0.0)
 
 
-class Placed(_Entry):
+class Placed(Entry):
     """Something on the shaft: name and z [m]."""
 
     name: Name
@@ -223,6 +167,7 @@ class BearingEntry(Placed):
     stiffness: _Matrix = Field(None, description="N/m")
     damping: _Matrix = Field(None, description="N s/m")
     table: str | None = None
+    pedestal: PedestalEntry | None = None
     _has_film: bool = PrivateAttr(True)
 
     @property
@@ -275,20 +220,24 @@ class CouplingEntry(Placed):
         return self
 
 
-class TrainToml(_Entry):
+class TrainToml(Entry):
     """train.toml; the order of wheels, bearings and couplings is that of the file."""
 
     name: Name
     speed: float = positive(1e4, "rad/s; 3000 rev/min are 314.16")
     balance_grade: float = grade()
-    gravity: Annotated[list[float], Field(min_length=2, max_length=3, description="m/s2")] = [0.0, -9.80665]
+    gravity: Annotated[list[float], Field(min_length=2, max_length=3, description="m/s2")] = [  # noqa: RUF012 (pydantic copies it)
+        0.0,
+        -9.80665,
+    ]
     shaft: str = "shaft.csv"
+    foundation: str | None = None
     damping: DampingEntry = DampingEntry()
     materials: Annotated[dict[str, MaterialEntry], Field(min_length=1)]
-    wheel: list[WheelEntry] = []
+    wheel: list[WheelEntry] = []  # noqa: RUF012
     bearing: list[BearingEntry]
-    coupling: list[CouplingEntry] = []
-    mass: list[MassEntry] = []
+    coupling: list[CouplingEntry] = []  # noqa: RUF012
+    mass: list[MassEntry] = []  # noqa: RUF012
 
     @field_validator("gravity")
     @classmethod

@@ -14,7 +14,8 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from rotor_fmu.train.schema import LEAST_LENGTH, ShoulderRow, unit_of
+from rotor_fmu.train.entry import unit_of
+from rotor_fmu.train.schema import LEAST_LENGTH, ShoulderRow
 from rotor_fmu.train.shoulder import BOTH, MASS, STIFFNESS, Material, Ring, Shoulder
 from rotor_fmu.train.table import TableError, read_table
 from rotor_fmu.train.wording import choice, explain

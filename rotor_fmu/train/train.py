@@ -13,8 +13,7 @@ import math
 from dataclasses import asdict, dataclass
 from functools import cached_property
 
-from fmus import port
-from fmus.port.bore import PLAIN
+from rotor_fmu.train.seat import BearingSeat, FoundationMode
 from rotor_fmu.train.shoulder import Joint, Material, Ring, Shoulder
 
 __all__ = ["BearingSeat", "Coupling", "Joint", "LumpedMass", "Material", "Ring", "Shoulder", "Train", "Wheel"]
@@ -67,81 +66,6 @@ class LumpedMass:
 
 
 @dataclass(frozen=True)
-class BearingSeat:
-    """A journal bearing: where it sits and the data of its film and solid contact.
-
-    Attributes
-    ----------
-    name : str
-        Unique in the train.
-    node : int
-        Node at the bearing's mid-plane.
-    diameter, width, clearance : float
-        Journal diameter d, bearing width b, radial clearance C [m].
-    viscosity : float
-        Dynamic viscosity of the oil [Pa s].
-    ambient_pressure : float
-        Pressure at the bearing's ends, over the cavity [Pa].
-    roughness, contact_modulus, friction : float
-        Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
-    density : float
-        Of the oil, for turbulent films [kg/m3].
-    feed_pressure : float
-        Pressure in the grooves, over the cavity [Pa].
-    bore : str
-        Its arcs, see `fmus.port.bore.from_text`.
-    layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
-        Soft layer: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio, hardness [Pa].
-    load : float or None
-        Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
-    residual_tilt_x, residual_tilt_y : float
-        Rotation of the bearing's axis against the journal's running axis left by the alignment [rad].
-    coefficients : str
-        Stiffness and damping, constant or over speed, see `fmus.port.coefficient_rows`; empty: from the film.
-    has_film : bool
-        Whether the bore is known.  Without, diameter, width and clearance are but scales of motion.
-    height : float or None
-        Of the bearing's centre over a straight line, against gravity [m]; None: as the load asks for.
-    sleeve : bool
-        The journal is a sleeve of the film's diameter that the table of the shaft does not have.
-    """
-
-    name: str
-    node: int
-    diameter: float
-    width: float
-    clearance: float
-    viscosity: float
-    ambient_pressure: float = 0.0
-    roughness: float = port.default_of("roughness")
-    contact_modulus: float = port.default_of("contact_modulus")
-    friction: float = port.default_of("friction")
-    density: float = port.default_of("density")
-    feed_pressure: float = 0.0
-    bore: str = PLAIN
-    layer_thickness: float = port.default_of("layer_thickness")
-    layer_modulus: float = port.default_of("layer_modulus")
-    layer_poisson: float = port.default_of("layer_poisson")
-    layer_hardness: float = port.default_of("layer_hardness")
-    load: float | None = None
-    residual_tilt_x: float = 0.0
-    residual_tilt_y: float = 0.0
-    coefficients: str = ""
-    has_film: bool = True
-    height: float | None = None
-    sleeve: bool = False
-
-    @property
-    def relative_clearance(self) -> float:
-        """Relative clearance psi = C / (d/2)."""
-        return 2.0 * self.clearance / self.diameter
-
-    def sommerfeld(self, force: float, speed: float) -> float:
-        """So = F psi^2 / (b d eta omega) for a force [N] at a speed [rad/s]."""
-        return force * self.relative_clearance**2 / (self.width * self.diameter * self.viscosity * speed)
-
-
-@dataclass(frozen=True)
 class Coupling:
     """A coupling, aligned free of moment: the first node of the rotor behind it.
 
@@ -173,6 +97,8 @@ class Train:
         Rigid bodies without unbalance.
     gravity : tuple of float
         In x and y [m/s2]; (0, 0) for a train that stands upright.
+    foundation : tuple of FoundationMode
+        Modes of what all bearings stand on, in place of pedestals.
     """
 
     name: str
@@ -186,6 +112,7 @@ class Train:
     couplings: tuple[Coupling, ...] = ()
     masses: tuple[LumpedMass, ...] = ()
     gravity: tuple[float, float] = (0.0, -9.80665)
+    foundation: tuple[FoundationMode, ...] = ()
 
     @cached_property
     def z(self) -> tuple[float, ...]:
@@ -268,6 +195,11 @@ class Train:
         )
 
     @property
+    def has_moving_housings(self) -> bool:
+        """Whether its bearings stand on pedestals, or on a foundation that vibrates."""
+        return bool(self.foundation) or any(seat.pedestal is not None for seat in self.bearings)
+
+    @property
     def materials(self) -> tuple[Material, ...]:
         """Materials of the shaft, in the order in which they occur."""
         used = (m for s in self.shoulders for m in (s.material, *(ring.material for ring in s.rings)))
@@ -293,7 +225,8 @@ class Train:
         materials = {m["name"]: Material(**m) for m in data.pop("materials")}
         data["shoulders"] = tuple(Shoulder.from_data(shoulder, materials) for shoulder in data["shoulders"])
         data["wheels"] = tuple(Wheel(**w) for w in data["wheels"])
-        data["bearings"] = tuple(BearingSeat(**b) for b in data["bearings"])
+        data["bearings"] = tuple(BearingSeat.of_data(seat) for seat in data["bearings"])
+        data["foundation"] = tuple(FoundationMode.of_data(mode) for mode in data["foundation"])
         data["couplings"] = tuple(Coupling(**c) for c in data["couplings"])
         data["masses"] = tuple(LumpedMass(**m) for m in data["masses"])
         data["gravity"] = tuple(data["gravity"])

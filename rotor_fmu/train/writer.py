@@ -11,13 +11,15 @@ import tomlkit
 
 from fmus import port
 from rotor_fmu.train.schema import BORE
+from rotor_fmu.train.seat import DIRECTIONS, Pedestal
 from rotor_fmu.train.train import BearingSeat, Coupling, LumpedMass, Ring, Shoulder, Train, Wheel
 
 Placed: TypeAlias = Coupling | BearingSeat | Wheel | LumpedMass
 
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
 _MORE = ",rear_outer_diameter,rear_inner_diameter,counts,z"
-_SINCE = ("height", "sleeve", "feed_pressure", "bore")
+FOUNDATION = "foundation.csv"
+_SINCE = ("height", "sleeve", "feed_pressure", "bore", "pedestal")
 """Keys that are written where they differ from their defaults."""
 
 
@@ -34,9 +36,19 @@ def write_train(train: Train, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "shaft.csv").write_text(shaft_csv(train), encoding="utf-8")
     (folder / "train.toml").write_text(train_toml(train), encoding="utf-8")
+    if train.foundation:
+        (folder / FOUNDATION).write_text(foundation_csv(train), encoding="utf-8")
     for seat in train.bearings:
         if len(port.coefficient_rows(seat.coefficients)) > 1:
             (folder / _table_file(seat)).write_text(table_csv(seat), encoding="utf-8")
+
+
+def foundation_csv(train: Train) -> str:
+    """The modes of the foundation, SI units."""
+    places = [f"{seat.name}.{direction}" for seat in train.bearings for direction in DIRECTIONS]
+    rows = ([mode.frequency, mode.damping_ratio, *mode.shape] for mode in train.foundation)
+    lines = [["frequency", "damping", *places], *([repr(x) for x in row] for row in rows)]
+    return "\n".join(",".join(line) for line in lines) + "\n"
 
 
 def table_csv(seat: BearingSeat) -> str:
@@ -83,6 +95,8 @@ def train_toml(train: Train) -> str:
         "damping": {"alpha": train.rayleigh_alpha, "beta": train.rayleigh_beta},
         "materials": {},
     }
+    if train.foundation:
+        content["foundation"] = FOUNDATION
     if train.gravity != Train.gravity:
         content["gravity"] = list(train.gravity)
     for material in train.materials:
@@ -103,6 +117,8 @@ def _entries(train: Train, part: Placed) -> Iterator[tuple[str, Any]]:
             yield from _given(part)
         elif field.name in (*scales, "has_film") or (field.name in _SINCE and value == field.default):
             continue
+        elif isinstance(value, Pedestal):
+            yield field.name, {key: list(pair) for key, pair in asdict(value).items() if pair is not None}
         elif isinstance(value, str | bool):
             yield field.name, value
         elif value is not None:

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import CondensedShaft
-from rotor_fmu.shaft.matrices import ShaftModel
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
 from rotor_fmu.vibration.harmonic_shaft import condense_harmonic
 from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.prepared import PreparedShaft
 from rotor_fmu.vibration.state_space import ModalCoordinates
+from rotor_fmu.vibration.supported import SupportedCoordinates
 from rotor_fmu.vibration.unbalance import Unbalance
 from rotor_fmu.vibration.whirl_coordinates import whirl_coordinates
 from rotor_fmu.vibration.work import WorkMaps, work_maps
@@ -39,15 +40,18 @@ class MapCache:
 
     Parameters
     ----------
-    model, shaft : ShaftModel, ModalShaft
-        The shaft, unreduced and reduced.
+    prepared : PreparedShaft
+        The shaft, and what its bearings stand on.
+    shaft : ModalShaft
+        Both as one.
     unbalance : Unbalance
         Its excitation.
     """
 
-    def __init__(self, model: ShaftModel, shaft: ModalShaft, unbalance: Unbalance) -> None:
-        self._model, self._shaft, self._unbalance = model, shaft, unbalance
-        self._modal = ModalCoordinates(shaft)
+    def __init__(self, prepared: PreparedShaft, shaft: ModalShaft, unbalance: Unbalance) -> None:
+        self._model, self._bare, self._shaft = prepared.model, prepared.modal, shaft
+        self._foundation, self._unbalance = prepared.foundation, unbalance
+        self._modal = self._on_foundation(ModalCoordinates(self._bare))
         self._coordinates: OrderedDict[float, Coordinates] = OrderedDict()
         self._steps: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
@@ -58,7 +62,7 @@ class MapCache:
         """The coordinates of a motion: modal for None, else those in which steps at a speed are taken."""
         if speed is None:
             return self._modal
-        return _recall(self._coordinates, speed, lambda: whirl_coordinates(self._shaft, speed) or self._modal)
+        return _recall(self._coordinates, speed, lambda: self._new_coordinates(speed))
 
     def step(self, speed: float, step: float, end: float = 0.0) -> Maps:
         """Maps over a step, for the nominal unbalance and the lost blade's.
@@ -97,16 +101,24 @@ class MapCache:
         candidates = (float(f"{step:.8e}"), *known)
         return next((other for other in candidates if abs(other - step) <= noise), step)
 
-    def _forces(self, speed: float) -> Array:
-        nominal = self._unbalance.nominal_force(self._shaft, speed)
-        blade = self._unbalance.blade_force(self._shaft, speed)
+    def _new_coordinates(self, speed: float) -> Coordinates:
+        whirl = whirl_coordinates(self._bare, speed)
+        return self._modal if whirl is None else self._on_foundation(whirl)
+
+    def _on_foundation(self, shaft: Coordinates) -> Coordinates:
+        foundation = self._foundation
+        return SupportedCoordinates(shaft, foundation, 2 * self._bare.size) if foundation else shaft
+
+    def _forces(self, shaft: ModalShaft, speed: float) -> Array:
+        nominal = self._unbalance.nominal_force(shaft, speed)
+        blade = self._unbalance.blade_force(shaft, speed)
         return np.hstack([nominal, blade])
 
     def _new_step(self, speed: float, step: float) -> Maps:
-        return self.coordinates(speed).maps(speed, step, self._forces(speed))
+        return self.coordinates(speed).maps(speed, step, self._forces(self._bare, speed))
 
     def _new_work(self, speed: float, step: float) -> WorkMaps:
-        return work_maps(self._shaft, speed, step, self._forces(speed))
+        return work_maps(self._shaft, speed, step, self._forces(self._shaft, speed))
 
     def _new_harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         nominal = self._unbalance.nominal_force(self._shaft, speed)

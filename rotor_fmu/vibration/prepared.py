@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
+from rotor_fmu.foundation.foundation import Foundation
 from rotor_fmu.reduction.reduce import Method, ReducedShaft, reduce
 from rotor_fmu.shaft.matrices import ShaftModel, assemble
 from rotor_fmu.shaft.stress import BendingStress, bending_stress
@@ -20,6 +21,11 @@ class PreparedShaft:
     reduced: ReducedShaft
     modal: ModalShaft
     bending: BendingStress
+
+    @property
+    def foundation(self) -> Foundation | None:
+        """What its bearings stand on, where that moves."""
+        return self.model.foundation
 
 
 @lru_cache(maxsize=4)

@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.reduction.reduce import Method
-from rotor_fmu.shaft.condensation import Equilibrium, condense_static
 from rotor_fmu.train.train import Train
-from rotor_fmu.vibration import initial_state
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
-from rotor_fmu.vibration.coordinates import Coordinates
-from rotor_fmu.vibration.energy import Energy, EnergyMeter
-from rotor_fmu.vibration.fields import Extremes, FieldMap, NodeFields
-from rotor_fmu.vibration.map_cache import MapCache
+from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.state import RotorState
 from rotor_fmu.vibration.unbalance import Unbalance
@@ -25,7 +19,7 @@ from rotor_fmu.vibration.work import Work, WorkLedger
 Array = NDArray[np.float64]
 
 
-class Rotor:
+class Rotor(RotorMotion):
     """A shaft in its bearings, from a start state on.
 
     Parameters
@@ -58,10 +52,6 @@ class Rotor:
     holds_mean = False
     """Whether the last step held a part of some wrench at its mean, see `rotor_fmu.vibration.affine_step`."""
 
-    _state: RotorState
-    _journals: Array
-    _modal: Array | None
-
     def __init__(
         self,
         shaft: PreparedShaft,
@@ -71,19 +61,9 @@ class Rotor:
         speed: float,
         track_work: bool = False,
     ) -> None:
-        model = self.model = shaft.model
-        self.reduction_used = shaft.reduced.carried_out
-        self.shaft, self.unbalance, self._speed = shaft.modal, unbalance, speed
-        self._maps = MapCache(model, self.shaft, unbalance)
+        super().__init__(shaft, unbalance, gravity=gravity, speed=speed)
         self._stepper = AffineStep(self.shaft.bearings)
-        self._fields = FieldMap(self.shaft, shaft.bending, model.z, gravity)
-        self._energy = EnergyMeter(model, self.shaft, gravity)
         self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
-        self._condensed = condense_static(model, gravity)
-        # At rest without wrenches until a start is given.
-        nothing = np.zeros(len(self.shaft.bearing))
-        rest = Equilibrium(np.zeros(model.size), nothing, nothing)
-        self.set_state(RotorState(np.zeros(2 * self.shaft.size), 0.0, rest))
 
     @classmethod
     def of_train(
@@ -131,55 +111,6 @@ class Rotor:
             speed=train.speed if speed is None else speed,
             track_work=track_work,
         )
-
-    def start_from_positions(
-        self, static: ArrayLike, cos: ArrayLike, sin: ArrayLike, *, time: float = 0.0
-    ) -> None:
-        """Start with the journals moving as q(t) = static + cos cos(speed t) + sin sin(speed t).
-
-        Parameters
-        ----------
-        static, cos, sin : array_like, (n_b, 4)
-            [m], [rad]; static q at rest and the 1X orbit about it.
-        time : float
-            Instant of the start [s].
-        """
-        positions = (_array(static), _array(cos), _array(sin))
-        harmonic = self._maps.harmonic(self._speed)
-        angle = self._angle_at(time)
-        self.set_state(initial_state.at_positions(self._condensed, harmonic, self._speed, positions, angle))
-
-    def start_from_law(
-        self, F0: ArrayLike, K: ArrayLike, C: ArrayLike, *, orbit: bool, time: float = 0.0
-    ) -> None:
-        """Start in equilibrium with the affine laws w = F0 - K q - C v.
-
-        Parameters
-        ----------
-        F0, K, C : array_like, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
-            The laws of the bearings.
-        orbit : bool
-            With the linear response to the nominal unbalance.
-        time : float
-            Instant of the start [s].
-
-        Raises
-        ------
-        ValueError
-            If K leaves a rigid-body motion of the shaft free.
-        """
-        law = (_array(F0), _array(K), _array(C))
-        harmonic = self._maps.harmonic(self._speed)
-        angle = self._angle_at(time)
-        self.set_state(initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit))
-
-    def kinematics(self) -> Array:
-        """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""
-        return self._journals.copy()
-
-    def static_wrench(self) -> Array:
-        """Wrenches that hold the shaft in the static equilibrium of the start, (n_b, 4) in N, N m."""
-        return self._state.static.wrench.reshape(-1, 4).copy()
 
     def step(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float) -> None:
         """Take a macro step.
@@ -234,59 +165,8 @@ class Rotor:
         turned = math.fmod(angle + speed * H, 2.0 * math.pi)
         self.set_state(RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work))
 
-    def energy(self) -> Energy:
-        """Kinetic energy of the vibration, strain energy and potential in gravity now [J]."""
-        return self._energy(self.modal_state(), self._state.static)
-
     def work(self) -> Work:
         """Works since the start [J]; the rotor must keep account of them (`track_work`)."""
         if self._ledger is None:
             raise ValueError("rotor: it keeps no account of works; set track_work at its creation")
         return self._state.work
-
-    def fields(self) -> NodeFields:
-        """Displacement, vibration amplitude and normal stress at all nodes now."""
-        return self._fields.fields(self.modal_state(), self._state.static)
-
-    def extremes(self) -> Extremes:
-        """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
-        return self._fields.extremes(self.modal_state(), self._state.static)
-
-    def modal_state(self) -> Array:
-        """Modal displacements and velocities (p, p') of the vibration now, (2 m,); not to be changed."""
-        if self._modal is None:
-            self._modal = self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
-        return self._modal
-
-    def _motion_in(self, coordinates: Coordinates) -> Array:
-        if coordinates.speed == self._state.speed:
-            return self._state.motion
-        return coordinates.from_modal(self.modal_state())
-
-    def get_state(self) -> RotorState:
-        """The state now; it is never changed in place and may be kept without copying."""
-        return self._state
-
-    def set_state(self, state: RotorState) -> None:
-        """Go on from a state of this rotor or of another one of the same train and reduction."""
-        sizes = (len(state.motion), len(state.static.shape), len(state.static.wrench))
-        allowed = (2 * self.shaft.size, self.model.size, len(self.shaft.bearing))
-        if sizes != allowed:
-            raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
-        coordinates = self._maps.coordinates(state.speed)
-        if not state.basis:
-            state = replace(state, basis=coordinates.basis)
-        elif state.basis != coordinates.basis:
-            raise ValueError(
-                "rotor: the state was saved by another build or kind of processor, on which the modes of the "
-                "shaft come out in other vectors; go on there, or start anew"
-            )
-        self._state, self._modal = state, None
-        self._journals = journal_motion(coordinates, state.motion, state.static)
-
-    def _angle_at(self, time: float) -> float:
-        return math.fmod(self._speed * time, 2.0 * math.pi)
-
-
-def _array(values: ArrayLike) -> Array:
-    return np.asarray(values, dtype=np.float64)

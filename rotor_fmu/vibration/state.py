@@ -33,7 +33,7 @@ class RotorState:
     speed : float or None
         To which the coordinates of the motion belong [rad/s]; None for modal ones.
     basis : bytes
-        Their fingerprint, 16 bytes; empty for those of the rotor at hand.
+        Their fingerprint, 16 bytes; empty where the motion is (p, p').
     work : Work
         Done since the start, if the rotor keeps account of it.
     """

@@ -80,8 +80,8 @@ class LinearBearing:
         """Evaluate the port, see `bearing_fmu.depths.Film.evaluate`."""
         stiffness, damping = self.coefficients(float(inputs[16]))
         # the constant part first: the affine law is then what the wrench is made of
-        constant = self._static + stiffness @ (self._centre + inputs[8:12]) + damping @ inputs[12:16]
-        wrench = constant - stiffness @ inputs[:4] - damping @ inputs[4:8]
+        constant = self._static + stiffness @ self._centre
+        wrench = constant - stiffness @ (inputs[:4] - inputs[8:12]) - damping @ (inputs[4:8] - inputs[12:16])
         distance = float(np.hypot(*(inputs[:2] - inputs[8:10] - self._bore)))
         gap = self._clearance - distance
         rate = self._unit_load * abs(float(inputs[16]))

@@ -38,7 +38,7 @@ class Newton(Memoryless):
     def advance(self, system: System, time: float, step: float) -> Advance:
         """Repeat the step until the defect is within the tolerance."""
         system.rollback.mark()
-        start = system.journals.copy(), system.forces.copy()
+        start = system.motion.copy(), system.forces.copy()
         rotor, bearings = system.rotor_group, system.bearing_group
         rotor.feed()
         for iteration in range(1, self.limit + 1):
@@ -54,7 +54,7 @@ class Newton(Memoryless):
             if size != size:
                 break
             if iteration < self.limit:
-                end = system.journals, system.forces
+                end = system.motion, system.forces
                 secant_laws(start, end, system.tangents, system.scale(), system.laws)
                 system.rollback.rewind()
                 rotor.push()

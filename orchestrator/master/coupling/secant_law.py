@@ -27,7 +27,7 @@ def secant_laws(
     Parameters
     ----------
     start, end : tuple of ndarray (bearings, 8) and (bearings, 4)
-        Journals (q, v) and the wrenches there.
+        Journals in their housings (q, v) and the wrenches there.
     tangent : ndarray (bearings, 4, 8)
         [K C] at the end.
     scale : ndarray (bearings, 4)

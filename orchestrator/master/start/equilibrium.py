@@ -61,7 +61,7 @@ class Start:
     offsets : ndarray (bearings, 4)
         Bearing centres and axes in the fixed frame, in m and rad.
     static, cosine, sine : ndarray (bearings, 4)
-        Journals: ``q(t) = static + cosine cos(speed t) + sine sin(speed t)``.
+        Journals in their housings: ``q(t) = static + cosine cos(speed t) + sine sin(speed t)``.
     static_line : ndarray (nodes, 2)
         Static x, y of the shaft in m.
     tangents : ndarray (bearings, 4, 8)
@@ -127,8 +127,8 @@ def find_start(system: System, train: Train, speed: float) -> Start:
         loads=system.forces[:, :2].copy(),
         offsets=offsets,
         static=static,
-        cosine=system.journals[:, :4] - static,
-        sine=system.journals[:, 4:] / speed,
+        cosine=system.motion[:, :4] - static,
+        sine=system.motion[:, 4:] / speed,
         static_line=line,
     )
 

@@ -15,6 +15,7 @@ from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
 from orchestrator.results.figures.overview import overview
 from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
+from orchestrator.results.figures.supports import has_supports, supports
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,6 +62,8 @@ def write_figures(
         "normal-stress": lambda: normal_stress(records),
         "all-bearings": lambda: overview(records),
     }
+    if has_supports(records):
+        drawings["housing-and-foundation"] = lambda: supports(records, bearing)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     with own_settings():

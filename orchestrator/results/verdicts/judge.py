@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from orchestrator.results.film_regime import regimes
-from orchestrator.results.geometry import bearing_value
+from orchestrator.results.geometry import bearing_value, in_housing
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.quantities import (
     FORCE,
@@ -112,9 +112,8 @@ class _Bearing:
         a_b, b_c, c_d = limit.at(self.speed)
         window = phase.peak if phase.name.startswith("after") else phase.mean
         inside = window.mask(self.time)
-        motion = (
-            self.record["displacement"].sel(bearing=self.name).transpose("axis", "time").values[:, inside]
-        )
+        journal = in_housing(self.record).sel(bearing=self.name)
+        motion = journal.transpose("axis", "time").values[:, inside]
         step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
         turn = round(2.0 * math.pi / abs(self.speed) / step) + 1
         swing = running_peak_to_peak(probe_signals(motion, limit.probes), turn)

@@ -92,5 +92,5 @@ def test_moving_housing_and_offset(depth):
     expected = respond(film, Q, V, SPEED)
     np.testing.assert_allclose(out[:4], expected.wrench, rtol=1e-9, atol=1e-6)
     stiffness, damping = out[8:24].reshape(4, 4), out[24:40].reshape(4, 4)
-    law = out[4:8] - stiffness @ inputs[:4] - damping @ inputs[4:8]
+    law = out[4:8] - stiffness @ (inputs[:4] - inputs[8:12]) - damping @ (inputs[4:8] - inputs[12:16])
     np.testing.assert_allclose(law, out[:4], rtol=1e-9, atol=1e-3)

@@ -33,7 +33,7 @@ IN_TOML = [
     ("mass = 1500.0", 'mass = "heavy"', ["wheel 'wheel-1': mass = 'heavy'; allowed is a number"]),
     ("[damping]", "[dampings]",
      ["dampings: unknown key; did you mean 'damping'? allowed are name, speed, balance_grade, "
-      "gravity, shaft, damping, materials, wheel, bearing, coupling, mass"]),
+      "gravity, shaft, foundation, damping, materials, wheel, bearing, coupling, mass"]),
     ("youngs_modulus = 210000000000.0", "youngs_modulus = 210.0",
      ["materials: steel: youngs_modulus = 210.0; allowed is a number greater than 1e+08 Pa; "
       "did you give MPa?"]),

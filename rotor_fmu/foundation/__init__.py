@@ -1,0 +1,1 @@
+"""What the bearings stand on: pedestals, or the modes of a foundation."""
