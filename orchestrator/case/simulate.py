@@ -13,19 +13,20 @@ import xarray as xr
 
 from bearing_fmu import depths
 from orchestrator.case.case import Case, folder_case
+from orchestrator.case.course import course_of
 from orchestrator.case.progress import Progress, Stage
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.unit import UnitError
 from orchestrator.fmi.watchdog import Watchdog
 from orchestrator.master.assembly import join
-from orchestrator.master.coupling import SCHEMES, make_scheme
+from orchestrator.master.coupling import make_scheme
 from orchestrator.master.journal_in_words import with_state
 from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start, begin
 from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
-from orchestrator.master.time_loop import Course, RunEnd, run
+from orchestrator.master.time_loop import RunEnd, run
 from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, Saver
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
@@ -37,7 +38,6 @@ from orchestrator.results.result import Result, Stopwatch, Timing
 from orchestrator.results.validity import judge
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
-from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
 
 WORTH_A_THREAD = 4
@@ -170,10 +170,7 @@ class _TimeLoop:
         self._case, self._system, self._start, self._timing = case, system, start, timing
         scenario, train = case.scenario, case.train
         # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
-        controlled = scenario.tolerance is not None or SCHEMES[scenario.coupling].iterates
-        events = schedule_of(scenario, train).instants if controlled else ()
-        self._course = Course(scenario.end, scenario.step, scenario.tolerance, events)
-        stride = max(1, round(scenario.record.interval / scenario.step))
+        self._course, stride = course_of(scenario, train)
         self._recorder = Recorder(system, train.nodes, self._course.steps, stride)
         load = float(np.abs(start.loads).mean()) or _LEAST_LOAD
         system.set_scale(load, [seat.width for seat in train.bearings])
@@ -204,7 +201,7 @@ class _TimeLoop:
         before = [(group.step_time, group.exchange_time) for group in system.groups]
         end = run(
             system,
-            make_scheme(scenario.coupling, scenario.tolerance),
+            make_scheme(scenario.coupling, self._course.tolerance),
             observers,
             self._course,
             on_time=on_time,

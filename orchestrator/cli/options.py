@@ -53,6 +53,7 @@ class Coupling(StrEnum):
     """How rotor and bearings exchange values."""
 
     LINEAR_IMPLICIT = "linear-implicit"
+    MULTIRATE = "multirate"
     NEWTON = "newton"
     IQN_ILS = "iqn-ils"
     GAUSS_SEIDEL = "gauss-seidel"

@@ -70,8 +70,8 @@ class RunOptions:
         typer.Option(
             metavar="NAME",
             parser=one_of(Coupling, "--coupling"),
-            help="linear-implicit (affine law); iterated: newton, iqn-ils; to compare, explicit and force "
-            "only: gauss-seidel, jacobi.",
+            help="linear-implicit (affine law); multirate (each bearing at its own rate); iterated: newton, "
+            "iqn-ils; to compare, explicit and force only: gauss-seidel, jacobi.",
         ),
     ] = None
     step: Annotated[

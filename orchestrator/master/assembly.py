@@ -152,8 +152,9 @@ def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, t
             parameters.append(part.parameters)
         system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
         system.bearing_group.employ(threads)
+        halved = scenario.tolerance is not None or SCHEMES[scenario.coupling].many_rates
         for unit, values in zip(units, parameters, strict=True):
-            unit.file.check_steps(scenario.step, scenario.end, scenario.tolerance is not None)
+            unit.file.check_steps(scenario.step, scenario.end, halved)
             unit.set_parameters(values)
         system.set_speed(speed)
         for unit in units:

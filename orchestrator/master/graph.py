@@ -53,7 +53,7 @@ class Group:
     """
 
     def __init__(self, graph: Graph, names: Iterable[str]) -> None:
-        members = [graph.members[name] for name in names]
+        members = self._members = [graph.members[name] for name in names]
         self.units: tuple[Unit, ...] = tuple(m.unit for m in members)
         self._graph = graph
         self._threads = StepThreads(self.units)
@@ -79,6 +79,16 @@ class Group:
     def feed(self) -> None:
         """Move the newest outputs along the connections into the inputs of these units."""
         self.give(self._graph.outputs[self._sources])
+
+    def feed_some(self, chosen: Sequence[int]) -> None:
+        """Move the newest outputs into the inputs of the units of these numbers."""
+        start = perf_counter()
+        for k in chosen:
+            member = self._members[k]
+            self._graph.inputs[member.targets] = self._graph.outputs[member.sources]
+            if member.linked is not None:
+                member.linked.set()
+        self.exchange_time += perf_counter() - start
 
     def give(self, values: NDArray[np.float64]) -> None:
         """Set the connected inputs of these units to values, in the order of `received`."""
@@ -122,10 +132,18 @@ class Group:
         finally:
             self.step_time += perf_counter() - start
 
-    def fetch(self) -> None:
-        """Read the outputs of these units."""
+    def step_some(self, chosen: Sequence[int], times: Sequence[float], steps: Sequence[float]) -> None:
+        """Carry out in each unit of these numbers a macro step of its own, as `step`."""
         start = perf_counter()
-        for call in self._gets:
+        try:
+            self._threads.step_some(chosen, times, steps)
+        finally:
+            self.step_time += perf_counter() - start
+
+    def fetch(self, chosen: Iterable[int] | None = None) -> None:
+        """Read the outputs of these units, or of those of these numbers."""
+        start = perf_counter()
+        for call in self._gets if chosen is None else [self._gets[k] for k in chosen]:
             call()
         self.exchange_time += perf_counter() - start
 

@@ -4,7 +4,9 @@ Steps are the interval divided by powers of two, so that units which keep what d
 step size keep little.  A step whose error exceeds the tolerance, whose iteration does not
 converge, or that a unit discards is taken back and halved; steps grow again when the film is
 calm, in pairs, so that they always end on the interval's end.  The error of a step is the larger of
-its defect, which sees the interface, and of what comes of its length (`step_error`).
+its defect, which sees the interface, and of what comes of its length (`step_error`).  A scheme of many
+rates lets bearings stay behind within the interval; where units cannot be taken back, it goes on in
+halves after a step that was too long.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,6 +41,15 @@ whether the defect decides (linear-implicit) or the length does (newton)."""
 
 EASY = 3
 """Passes of an iterating scheme up to which twice the step is tried."""
+
+
+class Verdict(Enum):
+    """What became of a step."""
+
+    EASY = "twice of it would do"
+    RIGHT = "accepted"
+    LONG = "accepted for want of a way back, half of it should follow"
+    TAKEN_BACK = "taken back"
 
 
 @dataclass
@@ -135,7 +147,7 @@ class Stepper:
         tolerance: float | None,
         on_step: Callable[[float, float, Advance], None],
     ) -> None:
-        if tolerance is not None or scheme.iterates:
+        if (tolerance is not None or scheme.iterates) and not scheme.many_rates:
             system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
         self._system, self.scheme, self._on_step = system, scheme, on_step
         self._tolerance = tolerance
@@ -156,23 +168,24 @@ class Stepper:
         while done < 2**self.level:
             step = length / 2**self.level
             last = done + 1 == 2**self.level
-            easy = self._attempt(start + done * step, end if last else start + (done + 1) * step, step)
-            if easy is None:
+            verdict = self._attempt(
+                start + done * step, end if last else start + (done + 1) * step, step, last
+            )
+            done += verdict is not Verdict.TAKEN_BACK
+            if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < DEEPEST:
                 self.level += 1
                 done *= 2
-                continue
-            done += 1
-            if easy and self.level and done % 2 == 0:
+            elif verdict is Verdict.EASY and self.level and done % 2 == 0:
                 self.level -= 1
                 done //= 2
 
-    def _attempt(self, time: float, end: float, step: float) -> bool | None:
-        """Take a step; whether twice of it would do, or None if it was taken back."""
+    def _attempt(self, time: float, end: float, step: float, last: bool) -> Verdict:
+        """Take a step, the `last` of its interval or not."""
         if self._marks:
             self._system.rollback.mark()
         self._before[:] = self._system.motion
         try:
-            advance = self._advance(time, step)
+            advance = self._advance(time, step, last)
             sizes = self._sizes(advance)
             problem = self._problem(advance, sizes, step)
         except NotConverged as error:
@@ -180,35 +193,44 @@ class Stepper:
         except UnitError as error:
             if error.status is not Status.DISCARD or not self._system.rollback.possible:
                 raise
-            self._system.rollback.take_back()
+            self._take_back()
             self.counts.discarded += 1
             if self.level == DEEPEST:
                 raise
-            return None
-        if problem is not None:
+            return Verdict.TAKEN_BACK
+        bears = self.scheme.many_rates and not self._system.rollback.possible
+        if problem is not None and not (bears and isinstance(problem, ToleranceMissed)):
             if self._system.rollback.possible:
-                self._system.rollback.take_back()
+                self._take_back()
             self.counts.rejected += 1
             if self.level == DEEPEST or (self._tolerance is None and not self.scheme.iterates):
                 raise problem
-            return None
+            return Verdict.TAKEN_BACK
         self._count(advance, step, sizes)
         self._on_step(time, end, advance)
+        if problem is not None:
+            return Verdict.LONG
         if self.scheme.iterates and advance.iterations > EASY:
-            return False
-        return self._tolerance is None or max(sizes) <= CALM * self._tolerance
+            return Verdict.RIGHT
+        easy = self._tolerance is None or max(sizes) <= CALM * self._tolerance
+        return Verdict.EASY if easy else Verdict.RIGHT
 
-    def _advance(self, time: float, step: float) -> Advance:
+    def _take_back(self) -> None:
+        self._system.rollback.take_back()
+        self.scheme.refuse()
+
+    def _advance(self, time: float, step: float, last: bool) -> Advance:
         """Carry the system over a step, and estimate its error."""
         system = self._system
-        advance = self.scheme.advance(system, time, step)
+        advance = self.scheme.advance(system, time, step, last)
         return advance._replace(of_length=error_of_step(self._before, system.motion, system.squares, step))
 
     def _sizes(self, advance: Advance) -> tuple[float, float]:
         """Relative defect of a step, and weighted relative error from its length."""
         assert advance.of_length is not None
         of_length = OF_LENGTH * self._system.relative(advance.of_length)
-        return self._system.relative(advance.defect), of_length
+        judged = advance.defect if advance.judged is None else advance.judged
+        return self._system.relative(judged), of_length
 
     def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
         system = self._system
@@ -239,5 +261,6 @@ class Stepper:
         counts.accepted += 1
         counts.iterations += advance.iterations
         counts.shortest = min(counts.shortest, step)
-        counts.largest_relative_defect = max(counts.largest_relative_defect, sizes[0])
+        defect = sizes[0] if advance.judged is None else self._system.relative(advance.defect)
+        counts.largest_relative_defect = max(counts.largest_relative_defect, defect)
         counts.largest_relative_error = max(counts.largest_relative_error, *sizes)

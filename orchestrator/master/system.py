@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
+from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmus import port
 from orchestrator.errors import PortError
+from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph, Group
 from orchestrator.master.rollback import Rollback
@@ -25,6 +27,7 @@ _BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
 _OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
 _TANGENT = slice(RESPONSE[port.K[0]], RESPONSE[port.C[-1]] + 1)
 _FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
+_LAW = slice(RESPONSE[port.LAW[0]], RESPONSE[port.LAW[-1]] + 1)
 _PER_LAW = len(port.LAW)
 _PER_JOURNAL = len(port.JOURNAL)
 
@@ -100,6 +103,8 @@ class System:
         self.bearing_group: Group = self.graph.group([b.name for b in bearings])
         self.groups = (self.rotor_group, self.bearing_group)
         self.rollback = Rollback(self.units, self.graph)
+        self._all_laws = Block(rotor, [*_at_bearings(n, port.LAW)], self.laws.reshape(-1))
+        self._law_blocks = [Block(rotor, _at_bearing(i, port.LAW), law) for i, law in enumerate(self.laws, 1)]
         self._defect = np.empty((n, 4))
         self._reaction = np.empty((n, 2, 4, 1))
         self._loads, self._levers = np.ones(n), np.ones(n)
@@ -151,10 +156,14 @@ class System:
 
     def relative(self, defect: Array) -> float:
         """Return the largest component of a defect against `scale`."""
+        return float(self.sizes(defect).max())
+
+    def sizes(self, defect: Array) -> Array:
+        """Return the largest component of each bearing's defect against `scale`, (bearings,)."""
         # Without making the array of scales, which takes three times as long; this is asked at every step.
         largest = np.abs(defect).reshape(-1, 2, 2).max(axis=2)
         largest[:, 1] /= self._levers
-        return float((largest.max(axis=1) / self._force_scale()).max())
+        return np.asarray(largest.max(axis=1) / self._force_scale())
 
     def _force_scale(self) -> Array:
         return np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
@@ -167,6 +176,26 @@ class System:
     def set_film_speed(self, speed: float) -> None:
         """Set the speed of the bearings alone, as `set_speed`."""
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
+
+    def give_laws(self) -> None:
+        """Give the rotor the newest laws, over FMI only those that it does not have."""
+        start = perf_counter()
+        newest = self.responses[:, _LAW]
+        changed = np.flatnonzero((newest != self.laws).any(axis=1))
+        self.laws[changed] = newest[changed]
+        if 2 * len(changed) > len(newest):
+            self._all_laws.set()
+        else:
+            for k in changed:
+                self._law_blocks[k].set()
+        self.rotor_group.exchange_time += perf_counter() - start
+
+    def moved(self) -> Array:
+        """Return what the laws say that wrenches changed since the bearings stood last, (bearings, 4)."""
+        there = self.bearing_inputs[:, :_PER_JOURNAL]
+        if self.housings is not None:
+            there = there - self.bearing_inputs[:, _PER_JOURNAL : 2 * _PER_JOURNAL]
+        return np.matmul(self.squares, (self.motion - there).reshape(-1, 2, 4, 1)).sum(axis=1)[..., 0]
 
     def defect(self) -> Array:
         """Return F(q, v) - (F0 - K q - C v) at the newest state with the law that the rotor used.
@@ -245,5 +274,8 @@ def _differences(unit: Unit, variables: Iterable[port.Variable]) -> Iterator[str
 def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:
     names = tuple(names)
     for index in range(1, count + 1):
-        for name in names:
-            yield port.at_bearing(index, name)
+        yield from _at_bearing(index, names)
+
+
+def _at_bearing(index: int, names: Iterable[str]) -> list[str]:
+    return [port.at_bearing(index, name) for name in names]

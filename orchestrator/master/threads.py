@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from queue import SimpleQueue
 from threading import Thread
 
 from orchestrator.fmi.unit import Unit
 
-_Share = Sequence[tuple[int, Unit]]
+_Orders = Sequence[tuple[int, Unit, float, float]]
+"""Units with their numbers, and the start and length of the step of each."""
+
 _Errors = dict[int, Exception]
 
 
@@ -26,23 +28,31 @@ class StepThreads:
     """
 
     def __init__(self, units: Sequence[Unit], threads: int = 1) -> None:
-        count = max(1, min(threads, len(units)))
-        first, *others = (tuple(enumerate(units))[k::count] for k in range(count))
-        self._own = first
-        self._workers = [_Worker(share) for share in others]
+        self._units = tuple(enumerate(units))
+        self._workers = [_Worker() for _ in range(1, min(threads, len(units)))]
 
     def step(self, time: float, step: float) -> None:
-        """Carry out a macro step in every unit.
+        """Carry out a macro step in every unit, as `step_each`."""
+        self.step_each([(index, unit, time, step) for index, unit in self._units])
+
+    def step_some(self, chosen: Iterable[int], times: Sequence[float], steps: Sequence[float]) -> None:
+        """Carry out in each of the chosen units a macro step of its own, as `step_each`."""
+        self.step_each([(*self._units[k], times[k], steps[k]) for k in chosen])
+
+    def step_each(self, orders: _Orders) -> None:
+        """Carry out orders.
 
         Raises
         ------
         UnitError
             From the first unit, in their order, that does not accept the step.
         """
-        for worker in self._workers:
-            worker.orders.put((time, step))
-        errors = _step_all(self._own, time, step)
-        for worker in self._workers:
+        count = max(1, min(1 + len(self._workers), len(orders)))
+        busy = self._workers[: count - 1]
+        for k, worker in enumerate(busy, 1):
+            worker.orders.put(orders[k::count])
+        errors = _step_all(orders[::count])
+        for worker in busy:
             errors |= worker.done.get()
         if errors:
             raise errors[min(errors)]
@@ -58,20 +68,20 @@ class StepThreads:
 class _Worker:
     """A thread that waits for orders; a macro step is too short for the futures of an executor."""
 
-    def __init__(self, share: _Share) -> None:
-        self.orders: SimpleQueue[tuple[float, float] | None] = SimpleQueue()
+    def __init__(self) -> None:
+        self.orders: SimpleQueue[_Orders | None] = SimpleQueue()
         self.done: SimpleQueue[_Errors] = SimpleQueue()
-        self.thread = Thread(target=self._work, args=(share,), name="bladeloss", daemon=True)
+        self.thread = Thread(target=self._work, name="bladeloss", daemon=True)
         self.thread.start()
 
-    def _work(self, share: _Share) -> None:
-        while (order := self.orders.get()) is not None:
-            self.done.put(_step_all(share, *order))
+    def _work(self) -> None:
+        while (orders := self.orders.get()) is not None:
+            self.done.put(_step_all(orders))
 
 
-def _step_all(share: _Share, time: float, step: float) -> _Errors:
+def _step_all(orders: _Orders) -> _Errors:
     errors: _Errors = {}
-    for index, unit in share:
+    for index, unit, time, step in orders:
         try:
             unit.do_step(time, step)
         except Exception as error:  # a surprise, too, must reach the caller, who waits for this thread

@@ -39,12 +39,15 @@ class Course:
         Largest relative error of a step, see `Stepper`.
     events : tuple of float
         Instants on which a step ends besides, in s, ascending.
+    level : int
+        Halvings of a macro step with which the run begins.
     """
 
     end: float
     step: float
     tolerance: float | None = None
     events: tuple[float, ...] = ()
+    level: int = 0
 
     @property
     def steps(self) -> int:
@@ -147,6 +150,7 @@ def run(
             observer.stop(step, time, stepper)
 
     stepper = Stepper(system, scheme, course.tolerance, on_step)
+    stepper.level = course.level
     try:
         if resume is not None:
             first = resume(stepper)

@@ -9,7 +9,9 @@ displacement d over the step of length H and its velocities v0, v1, ::
 which is exact for a wrench linear and a motion cubic in time.  Where a journal is pressed into its shell
 the rotor holds part of the wrench at its mean (`rotor_fmu.vibration.affine_step`), and the last term is
 smaller by that share, which the rotor does not tell: received work and residue of such a bearing are
-estimates, and the whole shaft's account below is exact.  The film's work includes solid contact, shown
+estimates, and the whole shaft's account below is exact.  Where a bearing is evaluated after several steps of
+the rotor (`orchestrator.master.coupling.multirate`), its wrench is that of the law and a part of the defect
+that grows linearly over them.  The film's work includes solid contact, shown
 besides.  The residue is what the rotor received beyond what the films gave: energy that the
 coupling created, or lost where it is negative.
 
@@ -83,6 +85,28 @@ class Balance:
         return self.gap / self.exchanged if self.exchanged > 0.0 else 0.0
 
 
+class _Open:
+    """Sums since each bearing was evaluated last: time, received work, way d, and the integral of t v."""
+
+    def __init__(self, bearings: int) -> None:
+        self.time, self.received = np.zeros(bearings), np.zeros(bearings)
+        self.moved, self.moment = np.zeros((bearings, 4)), np.zeros((bearings, 4))
+
+    def add(self, step: float, start: Array, end: Array, first: Array, last: Array) -> None:
+        """Add a step between these journals, under wrenches of the law that run from first to last."""
+        moved, turned = end[:, :4] - start[:, :4], end[:, 4:] - start[:, 4:]
+        within = 0.5 * step * moved + step**2 / 12.0 * turned  # integral of t v over the step, cubic motion
+        self.received += np.sum(first * moved + (last - first) / step * within, axis=1)
+        self.moment += self.time[:, None] * moved + within
+        self.moved += moved
+        self.time += step
+
+    def close(self, evaluated: NDArray[np.bool_]) -> None:
+        """Begin anew at these bearings."""
+        for sums in (self.time, self.received, self.moved, self.moment):
+            sums[evaluated] = 0.0
+
+
 class Ledger(Observer):
     """Keeps the ledger of a run, step by step.
 
@@ -96,6 +120,7 @@ class Ledger(Observer):
         self._system = system
         self._works = np.zeros((len(system.bearings), len(COLUMNS)))
         self._before = self._values()
+        self._open = _Open(len(system.bearings))
         self._rotor = np.empty(len(port.ENERGY) + len(port.WORK))
         self._block = Block(system.rotor, (*port.ENERGY, *port.WORK), self._rotor)
         self._first = np.zeros_like(self._rotor)
@@ -108,6 +133,9 @@ class Ledger(Observer):
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Enter an accepted step."""
+        if advance.evaluated is not None:
+            self._watch_some(end - start, advance.evaluated, advance.defect)
+            return
         before, now, step = self._before, self._values(), end - start
         moved, turned = now[0][:, :4] - before[0][:, :4], now[0][:, 4:] - before[0][:, 4:]
 
@@ -121,6 +149,18 @@ class Ledger(Observer):
         self._works[:, 2] += work(self._law(before[0]), self._law(now[0]))
         self._works[:, 3] += np.abs(film)
         self._before = now
+
+    def _watch_some(self, step: float, evaluated: NDArray[np.bool_], defect: Array) -> None:
+        """Enter a step at whose end some bearings were evaluated."""
+        before, now, since = self._before, self._values(), self._open
+        since.add(step, before[0], now[0], self._law(before[0]), self._law(now[0]))
+        linearly = since.moment / since.time[:, None]
+        film = since.received + np.sum(defect * linearly, axis=1)
+        contact = np.sum(before[2] * since.moved + (now[2] - before[2]) * linearly, axis=1)
+        done = np.column_stack([film, contact, since.received, np.abs(film)])
+        self._works[evaluated] += done[evaluated]
+        since.close(evaluated)
+        self._before = (now[0], now[1], np.where(evaluated[:, None], now[2], before[2]))
 
     def balance(self) -> Balance:
         """Return the ledger up to now."""

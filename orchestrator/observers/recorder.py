@@ -77,6 +77,7 @@ class Recorder(Observer):
         self._system = system
         self._steps, self._stride = steps, stride
         self.size = 0
+        self._whole = True
         self._times = np.empty(capacity)
         self._journals = np.empty((capacity, bearings, 8))
         self._responses = np.empty((capacity, bearings, len(KEPT)))
@@ -104,6 +105,7 @@ class Recorder(Observer):
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Note the extremes of the system as it stands after a step."""
+        self._whole = advance.evaluated is None or bool(advance.evaluated.all())
         self._note(end, advance)
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
@@ -112,8 +114,8 @@ class Recorder(Observer):
             self._keep(time)
 
     def stop(self, step: int | None, time: float, stepper: Stepper) -> None:
-        """Keep a record of where the run stopped, unless there is one."""
-        if self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
+        """Keep a record of where the run stopped, unless there is one, or some bearings stand behind."""
+        if self._whole and self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
             self._keep(time)
 
     def _note(self, time: float, advance: Advance | None) -> None:

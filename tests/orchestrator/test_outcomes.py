@@ -143,7 +143,7 @@ def test_a_motion_that_is_not_finite_names_the_bearing(store, toy_fmus):
     before = system.journals.copy()
     scheme = LinearImplicit()
 
-    def advance(system, time, step):
+    def advance(system, time, step, _common):
         done = LinearImplicit.advance(scheme, system, time, step)
         system.responses[0, 0] = np.nan
         return done._replace(defect=np.full_like(done.defect, np.nan))

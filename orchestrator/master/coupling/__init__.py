@@ -9,6 +9,7 @@ from orchestrator.master.coupling.gauss_seidel import GaussSeidel
 from orchestrator.master.coupling.iqn_ils import IqnIls
 from orchestrator.master.coupling.jacobi import Jacobi
 from orchestrator.master.coupling.linear_implicit import LinearImplicit
+from orchestrator.master.coupling.multirate import Multirate
 from orchestrator.master.coupling.newton import Newton
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "IqnIls",
     "Jacobi",
     "LinearImplicit",
+    "Multirate",
     "Newton",
     "NotConverged",
     "make_scheme",
@@ -27,7 +29,7 @@ __all__ = [
 
 
 SCHEMES: Mapping[str, type[Coupling]] = {
-    scheme.name: scheme for scheme in (LinearImplicit, Newton, IqnIls, GaussSeidel, Jacobi)
+    scheme.name: scheme for scheme in (LinearImplicit, Multirate, Newton, IqnIls, GaussSeidel, Jacobi)
 }
 """Schemes by their name in scenarios."""
 
@@ -40,7 +42,8 @@ def make_scheme(name: str, tolerance: float | None = None) -> Coupling:
     name : str
         A key of `SCHEMES`.
     tolerance : float, optional
-        Of the schemes that iterate.
+        Of the schemes that iterate, or have many rates; each has its own where there is none.
     """
-    scheme: Callable[..., Coupling] = SCHEMES[name]
-    return scheme(tolerance) if tolerance is not None and SCHEMES[name].iterates else scheme()
+    scheme = SCHEMES[name]
+    takes: Callable[..., Coupling] = scheme
+    return takes(tolerance) if tolerance is not None and (scheme.iterates or scheme.many_rates) else takes()

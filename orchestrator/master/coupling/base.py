@@ -28,11 +28,17 @@ class Advance(NamedTuple):
     of_length : ndarray or None
         Error of the bearing wrenches that comes of the length of the step (bearings, 4), see
         `orchestrator.master.step_error`; the step control puts it in.
+    evaluated : ndarray of bool or None
+        The bearings that stand at the end of the step; the defect of others is 0. None: all.
+    judged : ndarray or None
+        What of the defect the length of this step answers for; None: all.
     """
 
     iterations: int
     defect: NDArray[np.float64]
     of_length: NDArray[np.float64] | None = None
+    evaluated: NDArray[np.bool_] | None = None
+    judged: NDArray[np.float64] | None = None
 
 
 class NotConverged(OrchestratorError):
@@ -75,11 +81,15 @@ class Coupling(Protocol):
         What the bearings must give the rotor.
     iterates : bool
         Whether it repeats a step until the defect meets its tolerance; then it sets the mark itself.
+    many_rates : bool
+        Whether bearings may stay behind where the step does not end on a common instant; it then goes on
+        without taking steps back, too.
     """
 
     name: ClassVar[str]
     wiring: ClassVar[Wiring]
     iterates: ClassVar[bool]
+    many_rates: ClassVar[bool]
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:
@@ -88,8 +98,8 @@ class Coupling(Protocol):
     @memory.setter
     def memory(self, arrays: dict[str, NDArray[Any]]) -> None: ...
 
-    def advance(self, system: System, time: float, step: float) -> Advance:
-        """Carry the system from `time` to `time + step`.
+    def advance(self, system: System, time: float, step: float, common: bool = True) -> Advance:
+        """Carry the system from `time` to `time + step`, and where that is a `common` instant all units.
 
         Raises
         ------
@@ -99,11 +109,18 @@ class Coupling(Protocol):
             When iterations do not reach the tolerance.
         """
 
+    def refuse(self) -> None:
+        """Forget the last step, which is taken back."""
+
 
 class Memoryless:
     """A scheme that takes each step once and keeps nothing."""
 
     iterates: ClassVar[bool] = False
+    many_rates: ClassVar[bool] = False
+
+    def refuse(self) -> None:
+        """Nothing."""
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:
@@ -118,7 +135,7 @@ class Memoryless:
 class Sequential(Memoryless):
     """One group after the other, each on the newest values."""
 
-    def advance(self, system: Coupled, time: float, step: float) -> Advance:
+    def advance(self, system: Coupled, time: float, step: float, common: bool = True) -> Advance:
         """Feed, step and read group by group."""
         for group in system.groups:
             group.feed()

@@ -59,6 +59,7 @@ class IqnIls:
     name: ClassVar[str] = "iqn-ils"
     wiring: ClassVar[Wiring] = Wiring.FORCE
     iterates: ClassVar[bool] = True
+    many_rates: ClassVar[bool] = False
 
     _history: list[tuple[Array, Array]] = field(default_factory=list, init=False)
     _size: Array | None = field(default=None, init=False)
@@ -76,7 +77,10 @@ class IqnIls:
         self._history = [(arrays[f"V{k}"], arrays[f"W{k}"]) for k in range(steps)]
         self._size = arrays.get("size")
 
-    def advance(self, system: Coupled, time: float, step: float) -> Advance:
+    def refuse(self) -> None:
+        """Nothing: differences of a step taken back are as good."""
+
+    def advance(self, system: Coupled, time: float, step: float, common: bool = True) -> Advance:
         """Repeat the step until what the first group receives is what the others return."""
         system.rollback.mark()
         first, later = system.groups[0], system.groups[1:]

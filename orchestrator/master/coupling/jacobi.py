@@ -17,7 +17,7 @@ class Jacobi(Memoryless):
     name: ClassVar[str] = "jacobi"
     wiring: ClassVar[Wiring] = Wiring.FORCE
 
-    def advance(self, system: Coupled, time: float, step: float) -> Advance:
+    def advance(self, system: Coupled, time: float, step: float, common: bool = True) -> Advance:
         """Feed all, step all, read all."""
         for group in system.groups:
             group.feed()

@@ -35,7 +35,7 @@ class Newton(Memoryless):
     wiring: ClassVar[Wiring] = Wiring.LAW
     iterates: ClassVar[bool] = True  # type: ignore[misc]
 
-    def advance(self, system: System, time: float, step: float) -> Advance:
+    def advance(self, system: System, time: float, step: float, common: bool = True) -> Advance:
         """Repeat the step until the defect is within the tolerance."""
         system.rollback.mark()
         start = system.motion.copy(), system.forces.copy()

@@ -28,6 +28,7 @@ CASES = {
     "controlled": {"coupling": "gauss-seidel", "tolerance": 0.015},
     "newton": {"coupling": "newton", "ledger": True},
     "iqn-ils": {"coupling": "iqn-ils"},
+    "multirate": {"coupling": "multirate", "tolerance": 3e-6, "ledger": True},
 }
 
 

@@ -1,0 +1,34 @@
+"""The macro steps of a scenario."""
+
+from __future__ import annotations
+
+import math
+
+from orchestrator.master.coupling import SCHEMES, Multirate
+from orchestrator.master.time_loop import Course
+from orchestrator.scenario.scenario import Scenario
+from orchestrator.scenario.schedule import schedule_of
+from rotor_fmu.train.train import Train
+
+LONGEST = 40
+"""Macro steps to a revolution at least, where a scheme of many rates chooses them."""
+
+
+def course_of(scenario: Scenario, train: Train) -> tuple[Course, int]:
+    """Return the macro steps of a run, and how many there are from one record to the next.
+
+    Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.  With
+    many rates the macro step, to the end of which all bearings come, is as long as records and the
+    revolution allow; the scenario's step is that with which the rotor begins.
+    """
+    scheme, step, tolerance = SCHEMES[scenario.coupling], scenario.step, scenario.tolerance
+    stride = max(1, round(scenario.record.interval / step))
+    level = 0
+    if scheme.many_rates:
+        longest = 2.0 * math.pi / abs(train.speed) / LONGEST
+        whole = max(k for k in range(1, stride + 1) if stride % k == 0 and (k == 1 or k * step <= longest))
+        step, stride, level = whole * step, stride // whole, math.ceil(math.log2(whole))
+        tolerance = Multirate.tolerance if tolerance is None else tolerance
+    controlled = tolerance is not None or scheme.iterates
+    events = schedule_of(scenario, train).instants if controlled else ()
+    return Course(scenario.end, step, tolerance, events, level), stride

@@ -1,0 +1,149 @@
+"""Multirate: each bearing is evaluated on intervals of its own; in between the rotor goes on with its law.
+
+A bearing whose wrench bends little need not be evaluated at every step of the rotor: its affine law
+``F0 - K q - C v``, expanded where it stood last, serves until it is evaluated again, at the end of an
+interval of its own.  What the law has missed by then is the defect, of second order in the interval.
+The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones.  The interval
+of a bearing doubles where its defect is calm and halves where it is above `OWN` of the tolerance.  It is
+evaluated early when its wrench has changed so much that the defect, which goes with the square of that
+change, is to be expected above; so nothing need be taken back for it.
+
+A unit takes one ``doStep`` from where it stands to where it is evaluated, so that communication points are in
+order and no unit steps twice over a time.  At common instants, where a record, an event or a
+checkpoint may be, all bearings are evaluated.
+
+Tried and left out: the mean of what the last interval missed, added to F0 in the next one (third order).
+Through contact of the turbine train it costs accuracy at equal evaluations, even where it is confined to
+defects below a tenth of the change of the wrench.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.master.coupling.base import Advance
+from orchestrator.master.system import System, Wiring
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+OWN = 0.3
+"""Share of the tolerance that the defect over an interval of several steps may reach: of equal defects that
+of the longer interval does more harm."""
+
+CALM = 0.2
+"""Share of that within which the defect, of second order, allows twice the interval."""
+
+_WHOLE = 1.0 - 1e-6
+"""Share of an interval that counts as the whole."""
+
+_NOTHING = 1e-12
+"""Relative change of a wrench that is none."""
+
+
+class Rates(NamedTuple):
+    """Where the bearings stand and how long they may go on, (bearings,) each.
+
+    Attributes
+    ----------
+    stands : ndarray
+        Where they were evaluated last, in s.
+    interval : ndarray
+        After which they are due, in s.
+    bend : ndarray
+        Relative defect of the last interval over the square of the relative change of the wrench in it.
+    """
+
+    stands: Array
+    interval: Array
+    bend: Array
+
+    def due(self, end: float, moved: Array, tolerance: float) -> Mask:
+        """Which bearings are to be evaluated at `end`, their wrenches having changed by `moved` (relative)."""
+        return (end - self.stands >= _WHOLE * self.interval) | (self.bend * moved**2 > tolerance)
+
+    def after(self, end: float, due: Mask, moved: Array, sizes: Array, tolerance: float) -> Rates:
+        """What follows on relative defects of these sizes at `end` of the bearings that were `due`."""
+        spans = end - self.stands
+        whole = spans >= _WHOLE * self.interval
+        interval = np.where(due & whole & (sizes <= CALM * tolerance), 2.0 * spans, self.interval)
+        interval = np.where(due & (sizes > tolerance), np.minimum(interval, 0.5 * spans), interval)
+        bend = np.where(due, sizes / np.maximum(moved, _NOTHING) ** 2, self.bend)
+        return Rates(np.where(due, end, self.stands), interval, bend)
+
+
+@dataclass
+class Multirate:
+    """Rotor on the laws at hand, then the bearings that are due.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest relative defect, see `System.relative`.
+    """
+
+    tolerance: float = 0.01
+
+    name: ClassVar[str] = "multirate"
+    wiring: ClassVar[Wiring] = Wiring.LAW
+    iterates: ClassVar[bool] = False
+    many_rates: ClassVar[bool] = True
+
+    _rates: Rates | None = field(default=None, init=False)
+    _next: Rates | None = field(default=None, init=False)
+    _rough: Mask | None = field(default=None, init=False)
+    """Bearings whose defect was above the tolerance in a step that was taken back."""
+
+    @property
+    def memory(self) -> dict[str, NDArray[Any]]:
+        """Where the bearings stand, and their intervals."""
+        rates = self._next or self._rates
+        return {} if rates is None else rates._asdict()
+
+    @memory.setter
+    def memory(self, arrays: dict[str, NDArray[Any]]) -> None:
+        self._rates, self._next, self._rough = (Rates(**arrays) if arrays else None), None, None
+
+    def refuse(self) -> None:
+        """Go back to the intervals before the step; what was above the tolerance is due in its repetition."""
+        self._next = None
+
+    def advance(self, system: System, time: float, step: float, common: bool = True) -> Advance:
+        """Carry the rotor over the step, and the bearings that are due to its end."""
+        rates, end = self._at(system, time, step), time + step
+        system.give_laws()
+        system.rotor_group.step(time, step)
+        system.rotor_group.fetch()
+        moved = system.sizes(system.moved())
+        again = np.zeros(len(moved), dtype=bool) if self._rough is None else self._rough
+        due = np.ones_like(again) if common else again | rates.due(end, moved, OWN * self.tolerance)
+        fresh = rates.stands == time
+        spans = np.where(fresh, step, end - rates.stands)  # an even step to the bit
+        chosen = np.flatnonzero(due).tolist()
+        system.bearing_group.feed_some(chosen)
+        system.bearing_group.step_some(chosen, rates.stands.tolist(), spans.tolist())
+        system.bearing_group.fetch(chosen)
+        defect = system.defect()
+        defect[~due] = 0.0
+        sizes = system.sizes(defect)
+        # A shorter step helps those that stand at its start, and others once, to be evaluated in time.
+        answers = fresh | (sizes > self.tolerance) & ~again
+        self._rough = sizes > self.tolerance
+        self._next = rates.after(end, due, moved, sizes, OWN * self.tolerance)
+        return Advance(1, defect, None, due, defect * answers[:, None])
+
+    def _at(self, system: System, time: float, step: float) -> Rates:
+        """Return how the bearings stand at the start of a step; one before that was not refused counts."""
+        if self._next is not None:
+            self._rates, self._next, self._rough = self._next, None, None
+        if self._rates is None:
+            n = len(system.bearings)
+            self._rates = Rates(np.full(n, time), np.full(n, step), np.zeros(n))
+            system.rotor_group.feed()
+        here = np.abs(self._rates.stands - time) <= 1e-6 * step  # but for rounding
+        self._rates = self._rates._replace(stands=np.where(here, time, self._rates.stands))
+        return self._rates

@@ -1,0 +1,174 @@
+"""Many rates: which bearing is evaluated when, by pure functions and on the oscillator of three FMUs."""
+
+import numpy as np
+import pytest
+
+from orchestrator.case.course import course_of
+from orchestrator.case.simulate import Execution, simulate
+from orchestrator.master.coupling import LinearImplicit, Multirate
+from orchestrator.master.coupling.multirate import CALM, OWN, Rates
+from orchestrator.master.stepping import Stepper
+from orchestrator.observers.ledger import Ledger
+from rotor_fmu.train.file import load_train
+from tests.orchestrator.oscillator import DISPLACEMENT, begin, exact_motion, make_system, released
+from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
+
+CUBIC = {"stiffness": 1e6, "cubic": 4e12}
+LOAD, MACRO, END = 4e3, 2e-3, 0.04  # N, the largest force in the motion; s
+
+
+def rates(**given):
+    """Three bearings that stand at 0 and are due after 4."""
+    alike = {"stands": np.zeros(3), "interval": np.full(3, 4.0), "bend": np.zeros(3)}
+    return Rates(**{**alike, **given})
+
+
+def test_a_bearing_is_due_at_the_end_of_its_interval_or_when_its_defect_must_have_grown():
+    given = rates(bend=np.array([0.0, 1.0, 1.0]))
+    moved = np.array([9.0, 0.1, 0.2])  # the last one: 0.04 is to be expected
+    assert given.due(3.0, moved, 0.02).tolist() == [False, False, True]
+    assert given.due(4.0, moved, 0.02).all()
+
+
+def test_intervals_double_where_calm_halve_where_rough_and_wait_for_those_not_evaluated():
+    due = np.array([True, True, False])
+    sizes = np.array([0.9 * CALM * 0.01, 0.011, 0.0])
+    after = rates().after(4.0, due, np.full(3, 0.1), sizes, 0.01)
+    assert after.interval.tolist() == [8.0, 2.0, 4.0]
+    assert after.stands.tolist() == [4.0, 4.0, 0.0]
+    np.testing.assert_allclose(after.bend, [sizes[0] / 0.01, sizes[1] / 0.01, 0.0])
+    early = rates().after(1.0, due, np.full(3, 0.1), sizes, 0.01)  # a common instant: calm, but not for long
+    assert early.interval.tolist() == [4.0, 0.5, 4.0]
+
+
+def carry(system, tolerance, level=3, on_step=lambda *_: None):
+    """Times, x of the front journal and who was evaluated after every accepted step, and the stepper."""
+    system.set_scale(LOAD, [1.0, 1.0])
+    path = [(0.0, system.journals[0, 0], True, True)]
+
+    def note(start, end, advance):
+        path.append((end, system.journals[0, 0], *advance.evaluated))
+        on_step(start, end, advance)
+
+    stepper = Stepper(system, Multirate(tolerance), tolerance, note)
+    stepper.level = level
+    for k in range(round(END / MACRO)):
+        stepper.cross(k * MACRO, (k + 1) * MACRO, MACRO)
+    return np.array(path).T, stepper
+
+
+def test_the_error_follows_the_tolerance(store, toy_fmus):
+    error, evaluations = [], []
+    for tolerance in (1e-2, 1e-3, 1e-4):
+        system = released(store, toy_fmus, **CUBIC)
+        (times, x, *_), stepper = carry(system, tolerance)
+        error.append(np.max(np.abs(x - exact_motion(times, **CUBIC))) / DISPLACEMENT)
+        evaluations.append(system.bearing_group.evaluations)
+        assert stepper.counts.largest_relative_error <= tolerance
+        system.close()
+    assert error[0] > 3.0 * error[1] > 9.0 * error[2]
+    assert error[2] < 2e-3
+    assert evaluations[0] < evaluations[1] < evaluations[2]
+
+
+def uneven(store, toy_fmus):
+    """A front bearing whose spring bends, and a linear one behind on which nothing happens."""
+    start = {"bearing[1].start.x": DISPLACEMENT, "start.orbit": False}
+    system = make_system(store, toy_fmus, rotor=start)
+    front = {"spring.stiffness": 1e6, "spring.damping": 1e3, "spring.cubic": 4e12}
+    system.bearings[0].set_parameters(front)
+    begin(system)
+    return system
+
+
+def test_the_calm_bearing_waits_and_no_unit_steps_twice_over_a_time(store, toy_fmus):
+    """Accepted steps of each unit follow one another, and meet common instants."""
+    system = uneven(store, toy_fmus)
+    taken = {unit.name: [] for unit in system.units}
+    for unit in system.units:
+        step_of = unit.do_step
+
+        def do_step(time, step, unit=unit, step_of=step_of):
+            taken[unit.name].append((time, step))
+            step_of(time, step)
+
+        unit.do_step = do_step
+    (times, x, front, rear), _ = carry(system, 1e-3)
+    system.close()
+    common = MACRO * np.arange(round(END / MACRO) + 1)
+    later = times >= MACRO  # its defect is rounding: in the first macro step its interval has grown to that
+    np.testing.assert_array_equal(times[later & (rear > 0)], common[1:])
+    assert front.sum() > 3 * rear.sum()
+    assert np.max(np.abs(x - exact_motion(times, **CUBIC))) < 0.02 * DISPLACEMENT
+    for name, on_time in (("rear", times[rear > 0]), ("rotor", times)):
+        start, length = np.array(taken[name]).T
+        kept = np.append(start[1:] > start[:-1], True)  # what was taken back was repeated from the same start
+        np.testing.assert_allclose(start[kept], on_time[:-1], rtol=1e-12)
+        np.testing.assert_allclose(start[kept] + length[kept], on_time[1:], rtol=1e-12)
+
+
+def test_linear_bearings_need_no_evaluation_but_at_common_instants(store, toy_fmus):
+    """And the motion is that of evaluating them at every step."""
+    system, each = released(store, toy_fmus), released(store, toy_fmus)
+    system.set_scale(LOAD, [1.0, 1.0])
+    scheme, step = Multirate(1e-6), MACRO / 8
+    for k in range(160):
+        scheme.advance(system, k * step, step, k % 8 == 7)
+        LinearImplicit().advance(each, k * step, step)
+        np.testing.assert_allclose(system.journals, each.journals, rtol=1e-9, atol=1e-15)
+    assert system.bearing_group.evaluations < 0.2 * each.bearing_group.evaluations
+    system.close()
+    each.close()
+
+
+def test_units_that_cannot_be_taken_back_are_carried_on_in_shorter_steps(store, toy_fmus):
+    system = released(store, toy_fmus, **CUBIC)
+    for unit in system.units:
+        unit.file.description.coSimulation.canGetAndSetFMUstate = False
+    stuck = released(store, toy_fmus, **CUBIC)
+    (times, x, *_), stepper = carry(stuck, 1e-3, level=0)
+    assert stepper.counts.taken_back == 0
+    assert stepper.counts.largest_relative_defect > 1e-3  # the first steps were too long
+    assert np.max(np.abs(x - exact_motion(times, **CUBIC))) < 0.05 * DISPLACEMENT
+    assert np.diff(times)[-1] < MACRO
+    stuck.close()
+    system.close()
+
+
+def test_the_ledger_counts_the_defect_over_the_interval_of_each_bearing(store, toy_fmus):
+    """Undamped springs, one cubic: the film's work is what their potential loses, and the gap is small."""
+    system = released(store, toy_fmus, stiffness=1e6, damping=0.0, cubic=4e12)
+    ledger = Ledger(system)
+    carry(system, 3e-4, on_step=lambda *step: ledger.watch(*step))
+    balance = ledger.balance()
+    lost = sum(
+        sign * (0.5e6 * x**2 + 1e12 * x**4)
+        for sign, x in ((1.0, DISPLACEMENT), (-1.0, system.journals[0, 0]))
+    )
+    assert balance.bearings[0, 0] == pytest.approx(lost, abs=1e-3 * balance.exchanged)
+    assert np.abs(balance.residue).sum() < 1e-3 * balance.exchanged
+    system.close()
+
+
+def test_one_thread_or_two_give_the_same_record(toy_fmus, tmp_path):
+    fmus = toy_fmu_folder(toy_fmus, tmp_path / "fmus")
+    blade = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
+    scenario = toy_scenario(tmp_path, event=blade, coupling="multirate")
+    one, two = (simulate(scenario, fmus, None, Execution(threads=n)) for n in (1, 2))
+    assert one.outcome.ok, one.message
+    assert one.record.identical(two.record)
+
+
+def test_common_instants_are_as_far_apart_as_records_and_the_revolution_allow(tmp_path):
+    """The turbine turns at 25 Hz: a fortieth of its revolution is 1 ms."""
+    turbine = load_train("turbine")
+
+    def course(**changes):
+        scenario = toy_scenario(tmp_path, step=1e-4, coupling="multirate", **changes)
+        made, stride = course_of(scenario, turbine)
+        return made.step, stride, made.level, made.tolerance
+
+    assert course(record={"interval": 5e-4}) == (pytest.approx(5e-4), 1, 3, Multirate.tolerance)
+    assert course(record={"interval": 2.4e-3}) == (pytest.approx(8e-4), 3, 3, Multirate.tolerance)
+    assert course(record={"interval": 1e-4}, tolerance=0.3) == (1e-4, 1, 0, 0.3)
+    assert OWN < 1.0
