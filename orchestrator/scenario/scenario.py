@@ -159,8 +159,9 @@ class Scenario(Model):
         Largest relative error of a step: of the defect, the wrench of a bearing less the one that the rotor
         was moved by, and of what comes of the step's length, against the larger of the mean static load and
         the bearing's force (moments: times its width). A step that misses it is taken back and halved; the
-        couplings newton and iqn-ils iterate the defect away as far, else to 1e-6. None: every step counts, but
-        for multirate, which has 0.01 then. It belongs to the step and the coupling beside it: where an option replaces one of them, it must be given anew.
+        couplings newton and iqn-ils iterate the defect away as far, else to 1e-6. None: every step counts,
+        but for multirate, which has 0.01 then. It belongs to the step and the coupling beside it: where an
+        option replaces one of them, it must be given anew.
     ledger : bool
         Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created
         or lost; what that costs stands at the rotor's parameter ``track_work``.

@@ -63,7 +63,7 @@ class Rates(NamedTuple):
     bend: Array
 
     def due(self, end: float, moved: Array, tolerance: float) -> Mask:
-        """Which bearings are to be evaluated at `end`, their wrenches having changed by `moved` (relative)."""
+        """Which bearings are to be evaluated at `end`, their wrenches changed by `moved` (relative)."""
         return (end - self.stands >= _WHOLE * self.interval) | (self.bend * moved**2 > tolerance)
 
     def after(self, end: float, due: Mask, moved: Array, sizes: Array, tolerance: float) -> Rates:
