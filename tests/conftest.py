@@ -21,6 +21,10 @@ from rotor_fmu.train.file import load_train  # noqa: E402
 threadpool_limits(1)  # where a plugin of pytest has loaded numpy before
 
 
+_COUNTED = "COVERAGE_PROCESS_CONFIG"
+"""By which coverage tells a process that it is to count its lines, see `counted`."""
+
+
 def pytest_configure(config):
     """Compile the kernels before the workers start, which would each compile them.
 
@@ -36,12 +40,31 @@ def pytest_configure(config):
             str(config.cache.mkdir("cold-kernels")),
         ]
         films = depths.films()
+        uncounted = {name: value for name, value in os.environ.items() if name != _COUNTED}
         started = [
-            subprocess.Popen([*command, *part], cwd=Path(__file__).parents[1])
+            subprocess.Popen([*command, *part], cwd=Path(__file__).parents[1], env=uncounted)
             for part in (films[:1], films[1:])
         ]
         for process in started:
             process.wait()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def coverage_of_processes():
+    """Keep coverage out of the processes that tests start, most of whose lines these tests run, too.
+
+    With Python 3.11 it makes them take twice their time; `counted` ones are left.
+    """
+    return os.environ.pop(_COUNTED, "")
+
+
+@pytest.fixture(scope="module")
+def counted(coverage_of_processes):
+    """Where lines are counted at all, count also those that the processes of this module run."""
+    with pytest.MonkeyPatch.context() as patch:
+        if coverage_of_processes:
+            patch.setenv(_COUNTED, coverage_of_processes)
+        yield
 
 
 @pytest.fixture(scope="session")

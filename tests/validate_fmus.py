@@ -31,7 +31,18 @@ def findings(path: Path) -> Iterator[str]:
     yield from (_of_ssp if path.suffix == ".ssp" else _of_fmu)(path)
 
 
-def _of_fmu(path: Path) -> Iterator[str]:
+_known: dict[bytes, list[str]] = {}
+
+
+def _of_fmu(path: Path) -> list[str]:
+    """What is wrong with an FMU; one that is there several times, as in SSPs, is looked at once."""
+    content = path.read_bytes()
+    if content not in _known:
+        _known[content] = list(_wrong_with(path))
+    return _known[content]
+
+
+def _wrong_with(path: Path) -> Iterator[str]:
     yield from (f"{path.name}: fmpy: {problem}" for problem in validate_fmu(str(path)))
     if find_spec(FMUTOOL) is None:
         return

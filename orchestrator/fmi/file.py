@@ -156,6 +156,16 @@ def _remove_rests(root: Path) -> None:
                     shutil.rmtree(rest, ignore_errors=True)
 
 
+def _folder_in_use(root: str | None) -> tuple[Path, FileLock]:
+    """Make a folder and lock it; another one where a process that starts just then took it for a rest."""
+    while True:
+        folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=root))
+        lock = FileLock(folder / _IN_USE)
+        with suppress(FileNotFoundError):
+            lock.acquire()
+            return folder, lock
+
+
 class FmuStore:
     """Extracts FMU files on demand into one temporary folder, and removes it at the end.
 
@@ -169,9 +179,7 @@ class FmuStore:
         roots = (tempfile.gettempdir(), *_FALLBACKS)
         root = next((r for r in roots if _SAFE_PATH.fullmatch(r) and os.access(r, os.W_OK)), None)
         _remove_rests(Path(root or tempfile.gettempdir()))
-        self.folder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=root))
-        self._lock = FileLock(self.folder / _IN_USE)
-        self._lock.acquire()
+        self.folder, self._lock = _folder_in_use(root)
         self._files: dict[Path, FmuFile] = {}
         self._left = LIMITS.total  # for all FMUs together, since an SSP may hold any number
 

@@ -1,6 +1,6 @@
 """A host without Python: starts and ends of each unit, and what must not be loaded for it to end well.
 
-Five of each unit in the suite; ``NATIVE_HOST_STARTS=40`` in the environment takes some minutes.
+Three of each unit in the suite; ``NATIVE_HOST_STARTS=40`` in the environment takes some minutes.
 V1 and V2 find this tree's packages and their compiled kernels; the others take the copies that they carry,
 and V3 compiles the kernels of its own.
 """
@@ -19,7 +19,7 @@ from bearing_fmu import depths
 
 SOURCE = Path(__file__).with_name("native_host.c")
 REPOSITORY = Path(__file__).parents[2]
-STARTS = int(os.environ.get("NATIVE_HOST_STARTS", "5"))
+STARTS = int(os.environ.get("NATIVE_HOST_STARTS", "3"))
 UNITS = ("rotor_small.fmu", "bearing_v1.fmu", "bearing_v2.fmu", "bearing_v3.fmu")
 AT_HAND = ("bearing_v1.fmu", "bearing_v2.fmu")
 # Bring in scipy's _uarray, with which Python 3.11 crashes in Py_FinalizeEx.

@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 from pythonfmu.builder import FmuBuilder
 
+from bearing_fmu.film import make_film
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from rotor_fmu.train.file import load_train
+from tests.bearing_fmu.bearings import SPEED, TURBINE
 
 UNITS = Path(__file__).parent / "units"
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -46,8 +48,10 @@ def store():
 
 @pytest.fixture(scope="session")
 def small_fmus(once):
-    """FMUs of the small train with short bearings."""
-    return once("small", lambda folder: build(folder, [load_train("small")], names=("v3",)))
+    """FMUs of the small train with short bearings, whose kernel is compiled: no budget of a step need do."""
+    fmus = once("small", lambda folder: build(folder, [load_train("small")], names=("v3",)))
+    make_film("v3", TURBINE).respond([0.0] * 4, [0.0] * 4, SPEED)
+    return fmus
 
 
 @pytest.fixture(scope="session")

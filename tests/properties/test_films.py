@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import assume, event, example, given, settings
 from hypothesis import strategies as st
 
@@ -10,6 +11,8 @@ from bearing_fmu.film import FilmStatus
 from tests.bearing_fmu.bearings import force_unit, lever, plain, respond
 from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 from tests.properties.journals import DEPTHS, bearings, film, positions, rates, speeds, turned
+
+pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 ANY = st.floats(allow_nan=True, allow_infinity=True)
 

@@ -15,10 +15,9 @@ from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import FmuError, OrchestratorError, ScenarioError
 from orchestrator.fmi.file import FmuStore
-from orchestrator.fmi.folder import build
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError
-from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.scenario.file import load_scenario
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.ssp.export import export
 from orchestrator.ssp.structure import SspError
@@ -27,6 +26,8 @@ from rotor_fmu.train.train import Train
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 from tests.properties.damage import bytes_of, lines_of, unzipped, zipped
+
+pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 SMALL = DATA / "small"
 SCENARIO = """\
@@ -102,17 +103,10 @@ def test_damaged_train(data):
 
 
 @pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))])
-    return folder
-
-
-@pytest.fixture(scope="module")
-def ssp(fmus, tmp_path_factory):
+def ssp(train_fmus, tmp_path_factory):
     """Members of the SSP of the small train with the affine law."""
     short = load_scenario("small", {"end": 0.01, "event": None, "depth": "v3"})
-    return unzipped(export(short, fmus, tmp_path_factory.mktemp("ssp") / "small.ssp", "small")[0])
+    return unzipped(export(short, train_fmus, tmp_path_factory.mktemp("ssp") / "small.ssp", "small")[0])
 
 
 TEXTS = ("SystemStructure.ssd", "resources/rotor.ssv", "resources/front.ssv")
@@ -161,9 +155,9 @@ def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
 )
 @given(st.data())
 @settings(max_examples=150)
-def test_damaged_fmu(fmus, room, tmp_path_factory, data):
+def test_damaged_fmu(toy_fmus, room, tmp_path_factory, data):
     """Its description line by line, or the bytes of the archive."""
-    members = unzipped(fmus / "bearing_v3.fmu")
+    members = unzipped(toy_fmus / "spring_damper.fmu")
     path = tmp_path_factory.getbasetemp() / "damaged.fmu"
     if data.draw(st.sampled_from([True, True, True, False])):
         text = data.draw(lines_of(members["modelDescription.xml"].decode()))

@@ -8,12 +8,13 @@ from hypothesis import strategies as st
 from bearing_fmu import depths
 from orchestrator.case.simulate import simulate
 from orchestrator.errors import OrchestratorError, ScenarioError
-from orchestrator.fmi.folder import build
 from orchestrator.outcome import Outcome
-from orchestrator.scenario.file import load_scenario, parse_scenario, scenario_toml, train_of
+from orchestrator.scenario.file import load_scenario, parse_scenario, scenario_toml
 from orchestrator.scenario.scenario import COUPLINGS, REDUCTIONS, Scenario
 from tests.faults import fault
 from tests.properties.journals import logarithmic
+
+pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 BEARINGS, WHEELS = ("front", "rear"), ("wheel-1", "wheel-2", "wheel-3")
 _SPECIAL = "\x00\t\n\r\x1f\"\\'#\x7f\x85\u2028\ufeff"
@@ -110,21 +111,14 @@ def test_any_values_make_a_scenario_or_are_refused_with_their_keys(changes):
         assert all(any(key in problem for key in keys) for problem in error.problems), error.problems
 
 
-@pytest.fixture(scope="module")
-def fmus(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmus")
-    build(folder, [train_of(load_scenario("small"))])
-    return folder
-
-
 @given(settings_of_small(longest=0.01))
 @settings(max_examples=15)
-def test_a_run_ends_with_numbers_or_the_name_of_what_failed(fmus, raw):
+def test_a_run_ends_with_numbers_or_the_name_of_what_failed(train_fmus, raw):
     """Steps up to a tenth of a revolution, every coupling: what is recorded is finite."""
     scenario = loaded(raw)
     assume(scenario.end / scenario.step <= 100.0)
     try:
-        result = simulate(scenario, fmus)
+        result = simulate(scenario, train_fmus)
     except OrchestratorError as error:
         event(f"refused: {type(error).__name__}")
         assert str(error)

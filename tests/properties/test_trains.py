@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 import scipy.linalg as sl
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,6 +16,8 @@ from rotor_fmu.train.train import Train
 from rotor_fmu.train.writer import write_train
 from rotor_fmu.vibration.rotor import Rotor
 from tests.properties.shafts import laws, trains
+
+pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 METHODS = st.sampled_from(["irs", "irs-plain", "guyan", "craig-bampton"])
 GRAVITY = 9.80665

@@ -15,6 +15,7 @@ from bearing_fmu.kernels import vector
 from tests.bearing_fmu.bearings import lever, plain
 from tests.bearing_fmu.plain import OPERATIONS
 
+pytestmark = pytest.mark.usefixtures("counted")
 ROUGH = {"roughness": 4e-6, "contact_modulus": 1e9, "friction": 0.1}
 SMALL = {"columns": 18, "rows": 4}
 # Position over the clearance, tilts over those that take all of it; rates over the speed.

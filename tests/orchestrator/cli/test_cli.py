@@ -28,6 +28,7 @@ from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.results import synthetic_record
 
+pytestmark = pytest.mark.usefixtures("counted")
 SHORT = """\
 train = "small"
 end = 0.02

@@ -11,10 +11,13 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
+from orchestrator.linear import campbell, response
 from orchestrator.outcome import INPUT_ERROR
 from orchestrator.results.record_files import read_record
 from rotor_fmu.train import writer as train_writer
 from rotor_fmu.train.file import load_train
+
+pytestmark = pytest.mark.no_cover  # see test_linear_commands.py
 
 COMMANDS = ("modes", "campbell", "campbell --supported", "harmonic", "reductions")
 METHODS = ("irs", "irs-plain", "guyan", "craig-bampton", "none")
@@ -99,13 +102,19 @@ def shafts(tmp_path_factory):
         write_train(folder / name / "train", name, rows)
         (folder / name / "s.toml").write_text(SCENARIO)
     (folder / "fine").mkdir()
-    train_writer.write_train(finer(load_train("small"), "fine", 5), folder / "fine" / "train")
+    train_writer.write_train(finer(load_train("small"), "fine", 4), folder / "fine" / "train")
     (folder / "fine" / "s.toml").write_text(SCENARIO)
     return folder
 
 
 @pytest.fixture
 def within(shafts, monkeypatch):
+    """Enter the folder of a shaft, where diagrams over speed have few of their points."""
+    monkeypatch.setattr(response, "INTERVALS", 30)
+    monkeypatch.setattr(response, "TRACKED_INTERVALS", 15)
+    monkeypatch.setattr(campbell, "FREE_STEPS", 10)
+    monkeypatch.setattr(campbell, "SUPPORTED_STEPS", 12)
+
     def enter(name):
         monkeypatch.chdir(shafts / name)
 

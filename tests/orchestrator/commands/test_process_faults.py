@@ -18,7 +18,7 @@ from tests.faults import fault
 from tests.orchestrator.foreign import call
 from tests.orchestrator.process import command, done
 
-SCENARIO = 'train = "small"\nend = 0.2\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
+SCENARIO = 'train = "small"\nend = 0.1\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +71,7 @@ def test_a_signal_ends_a_run_that_can_go_on(number, outcome, whole, small_fmus, 
     assert process.returncode == outcome.status, said + errors
     assert f"{outcome.value} (exit status {process.returncode})" in errors
     reached = checkpoint.read(saved.parent).time
-    assert 0.0 < reached < 0.2
+    assert 0.0 < reached < 0.1
     partial = tmp_path / "out-partial"
     if partial.exists():  # absent when the signal came before the second record
         assert f"{outcome.value} at t = {reached:.6g} s" in (partial / "PARTIAL.txt").read_text()

@@ -15,7 +15,7 @@ from orchestrator.observers import checkpoint
 from orchestrator.outcome import INPUT_ERROR
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
-from tests.orchestrator.process import command, done
+from tests.orchestrator.process import command
 
 SCENARIO = """\
 train = "small"
@@ -29,18 +29,18 @@ def call(*arguments):
 
 
 @pytest.fixture(scope="module")
-def exported(tmp_path_factory):
-    """Folder with short.toml, short.ssp, short_force.ssp and the FMUs they were made with."""
+def exported(small_fmus, tmp_path_factory):
+    """Folder with short.toml, short.ssp and short_force.ssp."""
     folder = tmp_path_factory.mktemp("command")
     (folder / "short.toml").write_text(SCENARIO)
-    out = call("export-ssp", folder / "short.toml", "--out", folder / "short.ssp", "--fmus", folder / "fmus")
+    out = call("export-ssp", folder / "short.toml", "--out", folder / "short.ssp", "--fmus", small_fmus)
     assert out.exit_code == 0, out.output
     assert "affine law" in out.output and "force only" in out.output
     return folder
 
 
-def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, tmp_path):
-    options = ("--no-figures", "--fmus", exported / "fmus", "--trust")
+def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, small_fmus, tmp_path):
+    options = ("--no-figures", "--fmus", small_fmus, "--trust")
     for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
         ran = call("run", exported / source, *options, "--out", tmp_path / out)
         assert ran.exit_code == 0, ran.output
@@ -49,8 +49,8 @@ def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, tmp_path):
     assert back.attrs["ssp"].startswith("short.ssp sha256 ")
 
 
-def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, tmp_path):
-    options = ("--no-figures", "--fmus", exported / "fmus", "--trust", "--certify")
+def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, small_fmus, tmp_path):
+    options = ("--no-figures", "--fmus", small_fmus, "--trust", "--certify")
     certified = []
     for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
         ran = call("run", exported / source, *options, "--out", tmp_path / out)
@@ -63,28 +63,28 @@ def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, tmp_
 
 def killed(path, fmus, out):
     """Kill a run of an SSP behind its first checkpoint in the time loop."""
-    options = ("--fmus", fmus, "--out", out, "--no-figures", "--trust", "--checkpoint", "1e-3")
-    process = command("run", path, *options, "--step", "1e-6", "--end", "4e-3")
+    options = ("--fmus", fmus, "--out", out, "--no-figures", "--trust", "--checkpoint", "2e-4")
+    process = command("run", path, *options, "--step", "1e-6", "--end", "2e-3")
     saved = checkpoint_folder(out)
     while process.poll() is None and not (saved.is_dir() and checkpoint_time(saved) > 0.0):
         time.sleep(0.02)
     process.send_signal(signal.SIGKILL)
     process.communicate()
-    assert process.returncode == -signal.SIGKILL and 0.0 < checkpoint_time(saved) < 4e-3
+    assert process.returncode == -signal.SIGKILL and 0.0 < checkpoint_time(saved) < 2e-3
 
 
 def checkpoint_time(folder):
     return checkpoint.read(folder).time if (folder / checkpoint.FILE).is_file() else 0.0
 
 
-def test_a_killed_run_goes_on_to_the_same_record(exported, tmp_path):
-    options = ("--fmus", exported / "fmus", "--no-figures", "--trust", "--step", "1e-6", "--end", "4e-3")
-    status, _, errors = done("run", exported / "short.ssp", *options, "--out", tmp_path / "whole")
-    assert status == 0, errors
-    killed(exported / "short.ssp", exported / "fmus", tmp_path / "out")
-    status, said, errors = done("resume", tmp_path / "out")
-    assert status == 0, errors
-    assert "Going on from t = 0.00" in said
+def test_a_killed_run_goes_on_to_the_same_record(exported, small_fmus, tmp_path):
+    options = ("--fmus", small_fmus, "--no-figures", "--trust", "--step", "1e-6", "--end", "2e-3")
+    whole = call("run", exported / "short.ssp", *options, "--out", tmp_path / "whole")
+    assert whole.exit_code == 0, whole.output
+    killed(exported / "short.ssp", small_fmus, tmp_path / "out")
+    resumed = call("resume", tmp_path / "out")
+    assert resumed.exit_code == 0, resumed.output
+    assert "Going on from t = 0.00" in resumed.output
     assert read_record(tmp_path / "out").identical(read_record(tmp_path / "whole"))
     assert not checkpoint_folder(tmp_path / "out").exists()
 
@@ -95,9 +95,9 @@ def test_a_killed_run_goes_on_to_the_same_record(exported, tmp_path):
     "exit 2; both digests, `put that file back, or start anew`; the checkpoint is kept",
     guard="orchestrator.case.prepare:_ssp_case",
 )
-def test_a_run_of_another_ssp_is_not_resumed(exported, tmp_path):
+def test_a_run_of_another_ssp_is_not_resumed(exported, small_fmus, tmp_path):
     shutil.copy(exported / "short.ssp", tmp_path / "mine.ssp")
-    killed(tmp_path / "mine.ssp", exported / "fmus", tmp_path / "out")
+    killed(tmp_path / "mine.ssp", small_fmus, tmp_path / "out")
     shutil.copy(exported / "short_force.ssp", tmp_path / "mine.ssp")
     resumed = call("resume", tmp_path / "out")
     assert resumed.exit_code == INPUT_ERROR, resumed.output
@@ -117,10 +117,10 @@ def test_a_run_of_another_ssp_is_not_resumed(exported, tmp_path):
     ],
     ids=["suffix", "no scenario", "foreign option", "no bearing", "no file"],
 )
-def test_what_is_wrong_is_said_and_nothing_written(arguments, words, exported, monkeypatch):
+def test_what_is_wrong_is_said_and_nothing_written(arguments, words, exported, small_fmus, monkeypatch):
     monkeypatch.chdir(exported)
     before = sorted(exported.rglob("*"))
-    refused = call(*arguments, "--fmus", exported / "fmus")
+    refused = call(*arguments, "--fmus", small_fmus)
     assert refused.exit_code == INPUT_ERROR, refused.output
     assert all(word in " ".join(refused.output.split()) for word in words), refused.output
     assert sorted(exported.rglob("*")) == before

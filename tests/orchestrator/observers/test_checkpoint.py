@@ -162,7 +162,7 @@ def test_a_finished_run_removes_what_killed_ones_had_half_written(own, tmp_path)
 @pytest.mark.slow
 def test_kill_at_random_moments_of_the_small_train(train_fmus, tmp_path):
     """Three times SIGKILL, wherever it strikes: in a step, a record, or the writing of a checkpoint."""
-    options = ["small", "--depth", "v2", "--end", "0.4", "--no-figures", "--fmus", train_fmus]
+    options = ["small", "--depth", "v2", "--end", "0.2", "--no-figures", "--fmus", train_fmus]
     assert call("run", *options, "--out", tmp_path / "whole").exit_code == 0
     out = tmp_path / "killed"
     saved = checkpoint_folder(out) / checkpoint.FILE
