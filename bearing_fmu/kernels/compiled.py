@@ -22,6 +22,9 @@ from numba import config, njit
 
 from bearing_fmu.kernels.kept import KeptFile
 
+# Kernels read records by the names of their fields, which they can do compiled only.
+config.DISABLE_JIT = 0  # type: ignore[attr-defined]
+
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {
     "cache": True,
@@ -95,8 +98,6 @@ def stage(function: _Function) -> _Function:
 
 
 def _compile(function: _Function, more: dict[str, Any]) -> _Function:
-    if config.DISABLE_JIT:  # type: ignore[attr-defined]  # nothing is compiled, and nothing kept
-        return function
     try:
         dispatcher: Any = njit(**_OPTIONS, **more)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process

@@ -184,6 +184,7 @@ def _cached(package: str, digest: str, own: Path, names: list[str]) -> Path:
                 with suppress(OSError):  # another process may have been first
                     whole.rename(target)
         if _holds(target, package, digest, names):
+            os.utime(target)  # in use: bladeloss removes what has not been for a month
             return target
     except (OSError, RuntimeError):  # no home, no space, no permission
         pass

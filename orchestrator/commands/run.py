@@ -6,17 +6,15 @@ from dataclasses import replace
 
 from rich.console import Console
 
+from orchestrator.case.carry_out import carry_out
 from orchestrator.case.case import Case
 from orchestrator.case.certify import at_half_step
 from orchestrator.case.checkpoint_folder import checkpoints, discard
 from orchestrator.case.conclude import completed, conclude
-from orchestrator.case.own_process import undisturbed
 from orchestrator.case.prepare import prepare, result_folder_of
-from orchestrator.case.progress import show_progress
 from orchestrator.case.request import RunRequest
-from orchestrator.case.simulate import Execution, default_threads, execute
+from orchestrator.case.simulate import Execution, default_threads
 from orchestrator.fmi.watchdog import Watchdog, leave
-from orchestrator.master.interrupt import interrupt_between_steps
 from orchestrator.observers.checkpoint import Checkpoint
 from orchestrator.report.library import require_library
 from orchestrator.results.folder_lock import lock_folder
@@ -71,23 +69,13 @@ def run_case(
 
         with Watchdog(request.budget, give_up) as watchdog:
             saving = checkpoints(case, request, folder, warn)
-            result = _executed(case, console, Execution(saving, saved, threads, watchdog))
+            result = carry_out(case, console, Execution(saving, saved, threads, watchdog))
         half = None
         if request.certify and result.outcome.ok:
             console.print("Certificate: the same run at half the step", highlight=False)
             finer = replace(case, scenario=at_half_step(case.scenario))
-            half = _executed(finer, console, Execution(threads=threads))
+            half = carry_out(finer, console, Execution(threads=threads))
         status = finish(result, half)
         if status == 0 and request.checkpoint is not None:
             discard(folder)
     return status
-
-
-def _executed(case: Case, console: Console, execution: Execution) -> Result:
-    """Execute a case with its progress on the console; signals wait for the end of a step."""
-    with (
-        undisturbed(),
-        show_progress(case.scenario.end, console) as show,
-        interrupt_between_steps(show) as progress,
-    ):
-        return execute(case, progress, execution)

@@ -88,6 +88,8 @@ def extract(path: Path, folder: Path, kind: str, limits: Limits = LIMITS) -> int
     """
     if not path.exists():
         raise FileNotFoundError(2, "no such file", str(path))
+    if not path.is_file():  # a folder, or a pipe or a device, which has no end
+        raise ArchiveError(f"{path}: not a readable {kind}: no file")
     try:
         with ZipFile(path) as archive:
             entries = archive.infolist()

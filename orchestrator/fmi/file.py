@@ -6,6 +6,7 @@ import ctypes
 import os
 import re
 import shutil
+import sys
 import tempfile
 from contextlib import suppress
 from dataclasses import replace
@@ -116,14 +117,20 @@ class FmuFile:
         return kind(str(self.folder / "binaries" / fmpy.platform / name))
 
     def end_library(self) -> None:
-        """Let the library of an FMU in Python take leave of the interpreter; no instance may live any more.
+        """Let the library of an FMU in Python take leave of the interpreter, and unload it.
 
         Left to the end of the process, libraries of pythonfmu 0.7 do so after their static data are
-        gone: they write to freed memory, and one exit in some fifty aborts.
+        gone: they write to freed memory, and one exit in some fifty aborts. A library that stays loaded
+        keeps some hundred kilobytes, of every run in a process, for each run extracts its own.
         """
-        if "library" in self.__dict__ and hasattr(self.library, "finalizePythonInterpreter"):
-            self.library.finalizePythonInterpreter.restype = None
-            self.library.finalizePythonInterpreter()
+        library = self.__dict__.pop("library", None)
+        if library is None:
+            return
+        if hasattr(library, "finalizePythonInterpreter"):
+            library.finalizePythonInterpreter.restype = None
+            library.finalizePythonInterpreter()
+        if not self.instances:  # one that broke was left alone, and may still be in use
+            fmpy.freeLibrary(library._handle)
 
     def check_steps(self, step: float, end: float, halved: bool) -> None:
         """Refuse steps of unlike length, the last or `halved` ones, for units that cannot take them.
@@ -212,6 +219,8 @@ class FmuStore:
     def remove(self) -> None:
         """Remove the files alone, where a unit is still in a call that does not end."""
         self._lock.release()
+        inside = f"{self.folder}{os.sep}"
+        sys.path[:] = [path for path in sys.path if not path.startswith(inside)]  # put there by pythonfmu
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self) -> FmuStore:

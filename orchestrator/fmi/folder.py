@@ -14,6 +14,7 @@ from fmus.build import builder
 from fmus.build.recipe import Recipe
 from orchestrator.errors import FmuError
 from orchestrator.fmi.blas import one_blas_thread
+from orchestrator.fmi.cache import prune, used
 from orchestrator.scenario.file import read_train
 from orchestrator.scenario.parameters import bearing_parameters
 from orchestrator.scenario.scenario import Scenario, is_fmu
@@ -65,6 +66,10 @@ def ensure_fmus(folder: Path, train: Train, names: Collection[str], console: Con
     try:
         wanted = recipes([train], sorted(name for name in names if not is_fmu(name)))
         built = builder.refresh(folder, wanted, own)
+        if own:
+            used(builder.place(folder, recipe) for recipe in wanted)
+            if built:
+                prune(folder)
     except OSError as error:
         raise FmuError(
             f"{folder}: FMUs cannot be built there: {error}; --fmus names another folder"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -14,7 +15,8 @@ from orchestrator.report.panels.panel import Panel
 from orchestrator.report.panels.series import bearing_series, shaft_series
 from orchestrator.report.panels.shaft import deformed_shafts
 from orchestrator.report.panels.spectra import spectra, waterfalls
-from orchestrator.report.source import Result, shown_bearing
+from orchestrator.report.source import ReportError, Result, shown_bearing
+from orchestrator.results.replacing import umask
 
 FILE = "report.html"
 
@@ -35,23 +37,45 @@ def write_report(results: Sequence[Result], path: Path, bearing: str | None = No
 
     Raises
     ------
+    ReportError
+        When something that this program did not write, or that was changed since, is in its place.
     NotWrittenError
         When it cannot be written; an earlier one stays as it is.
     """
+    if (path.exists() or path.is_symlink()) and not _as_written(path):
+        raise ReportError(
+            f"{path}: is no report, or was changed since, and is left as it is; --out takes another file"
+        )
     content = report_text(results, bearing)
+    content += _sign(content)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=".report_", suffix=".html", dir=path.parent)
         try:
             with os.fdopen(handle, "w", encoding="utf-8") as file:
                 file.write(content)
-            Path(name).chmod(0o644)
+            Path(name).chmod(0o666 & ~umask())
             Path(name).replace(path)
         finally:
             Path(name).unlink(missing_ok=True)
     except OSError as error:
         raise NotWrittenError(f"{path}: report not written: {error.strerror or error}") from None
     return path
+
+
+def _sign(content: str) -> str:
+    return f"<!-- bladeloss {hashlib.sha256(content.encode()).hexdigest()} -->\n"
+
+
+def _as_written(path: Path) -> bool:
+    """Whether a file is a page as `write_report` left it."""
+    if path.is_symlink() or not path.is_file():
+        return False
+    try:
+        content = path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return False
+    return content.endswith(_sign(content[: -len(_sign(""))]))
 
 
 def _panels(results: Sequence[Result]) -> Iterator[Panel]:

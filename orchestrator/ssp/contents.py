@@ -110,7 +110,7 @@ def _in_units(
             values[name] = given.in_unit(unit_of(name))
         except ValueError as error:
             raise SspError(f"{path}: {component.name}: {name} = {given.value!r}: {error}") from None
-        if isinstance(values[name], float) and not math.isfinite(values[name]) and name != "fracture.time":
+        if name != "fracture.time" and values[name] in (math.inf, -math.inf):
             raise SspError(f"{path}: {component.name}: {name} = {given.value!r}; allowed is a finite number")
     for connector in component.connectors:
         own = unit_of(connector.name)

@@ -5,33 +5,39 @@ Bearings of which only these are known need no bore; so do seals, and tilting pa
 
 from __future__ import annotations
 
-import csv
 import math
-import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from pydantic_core import PydanticCustomError
 
 from fmus import port
+from rotor_fmu.train.table import TableError, read_table
 
 Matrix = tuple[float, ...]
 """Four rows of four, one behind the other."""
 
 MATRIX = "a number for x and y alike, [xx, yy], or a matrix of 2x2 or 4x4 (x, y, tilt_x, tilt_y)"
 
-_SPEED = {"rad/s": 1.0, "rpm": math.pi / 30.0, "1/min": math.pi / 30.0, "hz": 2.0 * math.pi}
-_PER_LENGTH = {"n{}/m": 1.0, "n{}/mm": 1e3, "kn{}/m": 1e3, "kn{}/mm": 1e6, "mn{}/m": 1e6}
-_FACTORS = {"K": {k.format(""): x for k, x in _PER_LENGTH.items()}}
-_FACTORS["C"] = {k.format("s"): x for k, x in _PER_LENGTH.items()}
-_COLUMN = re.compile(r"(?P<name>[A-Za-z]+[0-9]*)\s*(?:\[(?P<unit>[^\]]*)\])?")
-_PLACES = {
-    letter + first + second: (letter, 4 * "xy".index(first) + "xy".index(second))
-    for letter in "KC"
-    for first in "xy"
-    for second in "xy"
-} | {f"{letter}{k // 4 + 1}{k % 4 + 1}": (letter, k) for letter in "KC" for k in range(16)}
+_UNITS = {"K": ("N/m", "N/rad", "N", "N m/rad"), "C": ("N s/m", "N s/rad", "N s", "N m s/rad")}
+"""Of forces by displacements and rotations, and of moments by these."""
+
+
+def _columns() -> dict[str, tuple[int, str]]:
+    """Place in a row of `fmus.port.coefficient_rows`, and unit, by the name of a column."""
+    columns = {"speed": (0, "rad/s")}
+    for first, letter in ((1, "K"), (17, "C")):
+        for row in range(4):
+            for column in range(4):
+                place = first + 4 * row + column, _UNITS[letter][2 * (row > 1) + (column > 1)]
+                columns[f"{letter}{row + 1}{column + 1}".casefold()] = place
+                if row < 2 and column < 2:
+                    columns[f"{letter}{'xy'[row]}{'xy'[column]}".casefold()] = place
+    return columns
+
+
+_COLUMNS = _columns()
 
 
 def matrix(value: Any) -> Matrix:
@@ -66,7 +72,7 @@ def constant(stiffness: Matrix | None, damping: Matrix | None) -> str:
 
 
 def table_text(path: Path) -> str:
-    """The text of `fmus.port.coefficient_rows` of a table over speed.
+    """The text of `fmus.port.coefficient_rows` of a table over speed, see `rotor_fmu.train.table`.
 
     Its head names the columns: ``speed`` in rad/s, or with a unit, ``speed [rpm]``; ``Kxx, Kxy, Kyx, Kyy,
     Cxx, ...``, or ``K11`` to ``C44`` in the order x, y, tilt_x, tilt_y, in N/m and N s/m, or as ``Kxx
@@ -78,53 +84,25 @@ def table_text(path: Path) -> str:
         Naming the file, the row, and what is allowed.
     """
     try:
-        lines = list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))
-    except (OSError, ValueError, csv.Error) as error:
-        raise ValueError(f"{path.name}: not readable: {error}") from None
-    numbered = [(n, [c.strip() for c in line]) for n, line in enumerate(lines, 1)]
-    content = [(n, cells) for n, cells in numbered if any(cells) and not cells[0].startswith("#")]
-    if len(content) < 2:
-        raise ValueError(f"{path.name}: a head and at least one row are needed")
-    columns = list(_columns(path.name, content[0][1]))
-    rows = []
-    for number, cells in content[1:]:
-        row = [0.0] * 33
-        try:
-            for (place, factor), cell in zip(columns, cells, strict=True):
-                row[place] = factor * float(cell)
-        except ValueError:
-            wanted = f"{len(columns)} numbers"
-            raise ValueError(
-                f"{path.name}: row {number}: {','.join(cells)!r}; allowed are {wanted}"
-            ) from None
-        rows.append(row)
-    text = port.coefficient_text(sorted(rows))
-    try:
+        found, problems = read_table(path, {name: unit for name, (_, unit) in _COLUMNS.items()}, ["speed"])
+        if problems:
+            raise TableError(problems[0])
+        columns = {name for _, given in found for name in given} | {"speed"}
+        text = port.coefficient_text(sorted(_row(number, given, columns) for number, given in found))
         port.coefficient_rows(text)
     except ValueError as error:
         raise ValueError(f"{path.name}: {error}") from None
     return text
 
 
-def _columns(file: str, head: list[str]) -> Iterator[tuple[int, float]]:
-    """Place in a row and factor of each column."""
-    seen = set()
-    for cell in head:
-        found = _COLUMN.fullmatch(cell)
-        name, unit = (found["name"], found["unit"]) if found else (cell, None)
-        known = name.lower() == "speed" or name in _PLACES
-        if not known or name in seen:
-            word = "occurs twice" if known else "is no column"
-            raise ValueError(f"{file}: {name!r} {word}; allowed are speed, Kxx to Cyy, or K11 to C44")
-        seen.add(name)
-        letter, k = ("", 0) if name.lower() == "speed" else _PLACES[name]
-        place = 0 if not letter else 1 + k + (16 if letter == "C" else 0)
-        factors = _FACTORS.get(letter, _SPEED)
-        factor = 1.0 if unit is None else factors.get(re.sub(r"[\s.*]", "", unit).lower())
-        if factor is None or (unit is not None and letter and (k % 4 > 1 or k > 7)):
-            raise ValueError(
-                f"{file}: unit [{unit}] of {name}; allowed are {', '.join(factors)}, or none for SI"
-            )
-        yield place, factor
-    if "speed" not in {name.lower() for name in seen}:
-        raise ValueError(f"{file}: no column 'speed'; it must be given, in rad/s or as speed [rpm]")
+def _row(number: int, given: Mapping[str, float | str], columns: Iterable[str]) -> list[float]:
+    row = [0.0] * 33
+    seen: dict[int, str] = {}
+    for name in sorted(columns):
+        (place, unit), value = _COLUMNS[name], given.get(name, "")
+        if place in seen:
+            raise TableError(f"columns {seen[place]!r} and {name!r} are the same; allowed is one of them")
+        if isinstance(value, str) or not math.isfinite(value):
+            raise TableError(f"row {number}: {name} = {value!r}; allowed is a number in {unit}")
+        seen[place], row[place] = name, value
+    return row

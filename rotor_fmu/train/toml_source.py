@@ -105,7 +105,7 @@ def read_toml(path: Path) -> TomlSource:
     except UnicodeDecodeError as error:
         raise TomlError(f"not TOML: {error}") from None
     except OSError as error:
-        raise TomlError(f"not readable: {error}") from None
+        raise TomlError(f"not readable: {error.strerror or error}") from None
 
 
 def _holds(data: Any, location: Sequence[Any]) -> bool:

@@ -9,18 +9,15 @@ from typing import Any
 import xarray as xr
 from rich.console import Console
 
-from orchestrator.case.case import Case
+from orchestrator.case.carry_out import carry_out
 from orchestrator.case.conclude import completed, conclude
 from orchestrator.case.prepare import prepare
-from orchestrator.case.progress import show_progress
 from orchestrator.case.request import RunRequest
-from orchestrator.case.simulate import Execution, default_threads, execute
+from orchestrator.case.simulate import Execution, default_threads
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import fmu_folder
-from orchestrator.master.interrupt import interrupt_between_steps
 from orchestrator.outcome import Outcome
 from orchestrator.results.folder_lock import lock_folder
-from orchestrator.results.result import Result
 from orchestrator.scenario.file import load_scenario
 from orchestrator.scenario.scenario import Scenario
 
@@ -101,11 +98,12 @@ def run(
         report=report,
     )
     with prepare(request, quiet, writes=out is not None) as case:
+        execution = Execution(threads=request.threads or default_threads(case.scenario, case.train))
         if request.out is None:
-            result = completed(case, _executed(case, request, console if shown else quiet))
+            result = completed(case, carry_out(case, console if shown else quiet, execution))
         else:
             with lock_folder(request.out):
-                result = completed(case, _executed(case, request, console if shown else quiet))
+                result = completed(case, carry_out(case, console if shown else quiet, execution))
                 conclude(case, request, request.out, (result, None), quiet, quiet)
     if not result.outcome.ok:
         raise RunError(result.outcome, result.message, result.record)
@@ -129,12 +127,3 @@ def nested(changes: Mapping[str, Any]) -> dict[str, Any]:
                 raise OrchestratorError(f"{key}: {name} is given as a value, too; allowed is one of them")
         table[last] = dict(value) if isinstance(value, Mapping) else value
     return result
-
-
-def _executed(case: Case, request: RunRequest, console: Console) -> Result:
-    threads = request.threads or default_threads(case.scenario, case.train)
-    execution = Execution(threads=threads)
-    if console.quiet:
-        return execute(case, None, execution)
-    with show_progress(case.scenario.end, console) as show, interrupt_between_steps(show) as progress:
-        return execute(case, progress, execution)

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from orchestrator.errors import OrchestratorError
 from orchestrator.scenario.file import train_folder
 from orchestrator.scenario.scenario import Scenario
+from rotor_fmu.train.toml_source import TomlError, read_toml
 from rotor_fmu.train.wording import choice
 
 FILE = "limits.toml"
@@ -145,11 +146,9 @@ def to_text(limits: Limits) -> str:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise LimitsError(f"{path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise LimitsError(f"{path}: no TOML: {error}") from None
+        return read_toml(path).raw
+    except TomlError as error:
+        raise LimitsError(f"{path}: {error}") from None
 
 
 def _checked(tables: Mapping[str, Any], source: str) -> Limits:

@@ -1,5 +1,6 @@
 """Units that answer with nonsense, or with an error: the run ends by name, and the record stays."""
 
+import json
 from zipfile import ZipFile
 
 import pytest
@@ -39,6 +40,15 @@ def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
     assert "not-finite (exit status 6): at t = 0.0015 s: rear: " in result.stderr
     record = read_record(tmp_path / "out-partial")
     assert record["displacement"].notnull().all() and record.attrs["status"] == "not-finite"
+
+
+def test_a_bearing_without_a_gap(faulty, run, tmp_path):
+    """Its gap is no number: there is none in table and summary, and the rest counts."""
+    result = run(faulty, "gap")
+    assert result.exit_code == 0, result.output
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())["bearings"]
+    (rear,) = [one for one in found if one["bearing"] == "rear"]
+    assert rear["least_gap_min"] is None and rear["force_max"] > 5e4
 
 
 @fault(

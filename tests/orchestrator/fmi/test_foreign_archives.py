@@ -200,3 +200,16 @@ def test_no_room_for_what_is_extracted(small_fmus, room):
     text = str(info.value)
     assert f"cannot be extracted to {room}: {os.strerror(27)}" in text and "TMPDIR" in text
     assert not list(room.iterdir())
+
+
+@fault(
+    "archive",
+    "a pipe or a device, which has no end, in the place of an SSP or an FMU",
+    "exit 2; archive, `no file`",
+    guard="orchestrator.fmi.archive:extract",
+)
+def test_what_is_no_file(tmp_path):
+    os.mkfifo(tmp_path / "pipe.ssp")
+    for path in (tmp_path / "pipe.ssp", Path("/dev/zero")):
+        with pytest.raises(ArchiveError, match="not a readable SSP: no file"):
+            extract(path, tmp_path / "x", "SSP")

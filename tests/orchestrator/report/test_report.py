@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
-from orchestrator.report import library
+from orchestrator.report import library, write
 from orchestrator.report.encode import packed, to_json, unpacked
 from orchestrator.report.source import ReportError, load_results, results_of, shown_bearing
-from orchestrator.report.write import report_text
+from orchestrator.report.write import report_text, write_report
 from orchestrator.results.record_files import write_record
+from tests.faults import fault
 from tests.orchestrator.results import synthetic_record
 
 LARGEST = 6e6
@@ -194,7 +195,10 @@ def test_the_command_writes_the_page_into_the_folder_of_the_run(folder):
         (["{tmp}/run/record.csv"], "{tmp}/run/record.csv: no record: "),
         (["{tmp}/run", "--bearing", "X"], "--bearing X: no such bearing; allowed are LP1-rear, "),
         (["{tmp}/run", "--out", "{tmp}"], "{tmp}: is a folder; --out takes the file of the page"),
-        (["{tmp}/run", "--limits", "{tmp}/no.toml"], "{tmp}/no.toml: No such file or directory"),
+        (
+            ["{tmp}/run", "--limits", "{tmp}/no.toml"],
+            "{tmp}/no.toml: not readable: No such file or directory",
+        ),
     ],
 )
 def test_wrong_input_is_said_in_a_line_and_nothing_is_written(folder, tmp_path, monkeypatch, arguments, text):
@@ -221,3 +225,23 @@ def test_without_the_plotting_library_one_line_says_what_to_install(folder, monk
     assert "pip install 'bladeloss[report]'" in done.output
     with pytest.raises(library.LibraryMissingError):
         library.require_library()
+
+
+@fault(
+    "machine",
+    "bladeloss report --out on a file of the user's own, a link, or a page that was changed",
+    "exit 2; the file, which is left as it is",
+    guard="orchestrator.report.write:_as_written",
+)
+def test_a_page_replaces_pages_only(records, tmp_path, monkeypatch):
+    monkeypatch.setattr(write, "report_text", lambda *_: "<html></html>\n")
+    page = write_report([], tmp_path / "page.html")
+    first = page.read_bytes()
+    assert write_report([], page).read_bytes() == first
+    (tmp_path / "link.html").symlink_to(page)
+    (tmp_path / "mine.html").write_text("precious")
+    page.write_bytes(first.replace(b"html", b"HTML", 1))
+    for name in ("page.html", "link.html", "mine.html"):
+        with pytest.raises(ReportError, match=f"{name}: is no report, or was changed since"):
+            write_report([], tmp_path / name)
+    assert (tmp_path / "mine.html").read_text() == "precious"

@@ -43,4 +43,6 @@ class FaultyBearing(SpringBearing):
         done = super().do_step(current_time, step_size)
         if fault == "nan":
             self.values.update(dict.fromkeys(OUTPUTS, math.nan))
+        if os.environ.get("FAULT") == "gap":
+            self.values["h_min"] = math.nan
         return done

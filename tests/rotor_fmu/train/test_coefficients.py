@@ -54,6 +54,12 @@ def test_a_table_of_another_program_is_read_with_its_units(tmp_path):
     assert np.count_nonzero(found) == 12
 
 
+def test_a_table_as_a_spreadsheet_writes_it(tmp_path):
+    text = "\ufeffSpeed [rpm];Kxx [kN/mm];K13 [kN/rad]\r\n3000;100,5;2,5\r\n;;\r\n6000;120;3\r\n"
+    found = rows(load_train(train(tmp_path, 'table = "tilting.csv"', table=text)))
+    assert found[:, [1, 3]].tolist() == [[1.005e8, 2.5e3], [1.2e8, 3e3]]
+
+
 def test_written_trains_read_again(tmp_path):
     loaded = load_train(train(tmp_path, 'table = "tilting.csv"', table=TABLE))
     write_train(loaded, tmp_path / "again")
@@ -72,10 +78,16 @@ def test_written_trains_read_again(tmp_path):
         ("damping = [[1, nan], [0, 1]]", None, ["damping", "2x2 or 4x4"]),
         ('stiffness = 1e6\ntable = "tilting.csv"', TABLE, ["table: given beside stiffness"]),
         ('table = "no.csv"', None, ["line 11", "no.csv: not readable"]),
-        ('table = "tilting.csv"', "speed,Kxz\n1,2\n", ["tilting.csv: 'Kxz' is no column; allowed are speed"]),
-        ('table = "tilting.csv"', "speed,Kxx [lb/in]\n1,2\n", ["unit [lb/in] of Kxx; allowed are n/m"]),
-        ('table = "tilting.csv"', "Kxx\n1\n", ["no column 'speed'"]),
-        ('table = "tilting.csv"', "speed,Kxx\n1,x\n", ["row 2: '1,x'; allowed are 2 numbers"]),
+        (
+            'table = "tilting.csv"',
+            "speed,Kxz\n1,2\n",
+            ["tilting.csv: header: column 'Kxz'", "allowed are speed, k11"],
+        ),
+        ('table = "tilting.csv"', "speed,Kxx [lb/in]\n1,2\n", ["header: column 'Kxx [lb/in]'", "in N/m"]),
+        ('table = "tilting.csv"', "Kxx\n1\n", ["missing speed"]),
+        ('table = "tilting.csv"', "speed,Kxx\n1,x\n", ["row 2: kxx = 'x'; allowed is a number in N/m"]),
+        ('table = "tilting.csv"', "speed;Kxx\n1;2\n3;\n", ["row 3: kxx = ''; allowed is a number"]),
+        ('table = "tilting.csv"', "speed,Kxx,K11\n1,2,3\n", ["'k11' and 'kxx' are the same"]),
         ('table = "tilting.csv"', "speed,Kxx\n1,2\n1,3\n", ["speeds must ascend"]),
         ("stiffness = 1e6\ndiameter = 0.05", None, ["width: missing", "clearance: missing"]),
         ("", None, ["diameter: missing", "viscosity: missing"]),
