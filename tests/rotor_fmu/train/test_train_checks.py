@@ -106,13 +106,13 @@ IN_TRAIN = [
         "unbalance_phase = 0.0", "unbalance_phase = 90", 50,
         "unbalance_phase = 90; allowed is a number of at most 6.3 rad; did you give degrees?",
         "a phase in degrees", "exit 2; line, value, range, the likely slip",
-        guard="rotor_fmu.train.schema:angle",
+        guard="rotor_fmu.train.entry:angle",
     ),
     case(
         "balance_grade = 0.0025", "balance_grade = 2.5", 3,
         "balance_grade = 2.5; allowed is a number of at most 0.1 m/s; G2.5 is 2.5e-3",
         "a balance grade in mm/s", "exit 2; line, value, range, what G2.5 is",
-        guard="rotor_fmu.train.schema:grade",
+        guard="rotor_fmu.train.entry:grade",
     ),
     case(
         "polar_inertia = 303.75", "polar_inertia = 400.0", 46,
@@ -166,7 +166,7 @@ IN_TABLE = [
         "0.25,0.28,0.0,steel", "0.0,0.28,0.0,steel", 7,
         "length = 0.0; allowed is a number greater than 0 m",
         "a shoulder without length", "exit 2; file, row, key, value, range",
-        guard="rotor_fmu.train.schema:positive",
+        guard="rotor_fmu.train.entry:positive",
     ),
     case(
         "0.25,0.28,0.0,steel", "250,0.28,0.0,steel", 7,
