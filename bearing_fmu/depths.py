@@ -69,7 +69,8 @@ class Depth:
     parameters : tuple of Variable
         With units, start values and ranges. All depths have those of the port; own ones stand behind them.
     memory : bool
-        Whether outputs depend on earlier inputs; then the film's state belongs to that of the unit.
+        Whether outputs depend on earlier inputs whatever the parameters; then the film's state belongs to
+        that of the unit.
     tilts : bool
         Whether it sees tilts and gives moments.
     isotropic : bool
@@ -83,6 +84,8 @@ class Depth:
     ahead : str
         ``module:function`` that does for a bearing's values once what its films then share, and returns a
         line about it, empty where it was done before; empty: nothing to be done.
+    remembering : tuple of str
+        Those of `boundaries` with which outputs depend on earlier inputs.
     colour : str
         Of its lines in figures; empty: the next that is free.
     """
@@ -99,6 +102,7 @@ class Depth:
     quick: bool = False
     boundaries: tuple[str, ...] = ("guembel",)
     ahead: str = ""
+    remembering: tuple[str, ...] = ()
     colour: str = ""
 
     @property
@@ -168,7 +172,8 @@ register(
         text="Journal bearing: Reynolds equation with misalignment and solid contact.",
         film="bearing_fmu.films.tilted.depth:make",
         tilts=True,
-        boundaries=("guembel", "reynolds"),
+        boundaries=("guembel", "reynolds", "jfo"),
+        remembering=("jfo",),
     )
 )
 register(

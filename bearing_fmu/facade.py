@@ -95,8 +95,8 @@ class BearingSlave(UnitSlave):
         self._state = state
 
     def model_state(self) -> FilmState | None:
-        """Return the state of the film; None where it has no memory."""
-        return FilmState(self._state) if self._depth.memory else None
+        """Return the state of the film; None where there is nothing to remember."""
+        return FilmState(self._state) if self._state.size else None
 
     def restore_model(self, state: FilmState) -> None:
         """Take back the state of the film."""

@@ -39,8 +39,8 @@ class BearingParameters:
         Resolution of the film around the circumference and along the axis.
     boundary : str
         Where the film ruptures: "guembel" (negative pressure zeroed, the port's condition) or "reynolds"
-        (pressure and its gradient vanish together), which the tilted film alone offers, at some five times
-        the effort.
+        (pressure and its gradient vanish together), at some five times the effort; or "jfo" (mass-conserving
+        rupture and reformation in time, of the tilted film alone), with oil from grooves or the ends.
     turbulence : str
         "laminar", or "constantinescu": flow and friction by the local Reynolds number, see
         `bearing_fmu.films.turbulence`.
@@ -91,6 +91,11 @@ class BearingParameters:
             raise ValueError(f"bearing parameter bore: {error}") from None
         if self.has_layer:
             self._check_layer()
+        if self.boundary == "jfo" and not (self.arcs or self.ambient_pressure > 0.0):
+            raise ValueError(
+                "bearing parameter boundary = 'jfo': oil must come from somewhere; allowed with grooves in "
+                "the bore, or with ambient_pressure > 0 at its ends"
+            )
         if self.roughness > _ROUGHEST * self.clearance:
             raise ValueError(
                 f"bearing parameter roughness = {self.roughness!r}: must be at most clearance / 10, "

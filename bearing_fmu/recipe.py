@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from bearing_fmu import depths
-from fmus.build.promises import AFFINE, ISOTROPIC, MEMORYLESS
+from fmus.build.promises import AFFINE, ISOTROPIC, MEMORYLESS, memoryless_with
 from fmus.build.recipe import Recipe
 from fmus.port.variable import Value
 
@@ -38,7 +38,14 @@ def bearing_recipe(name: str, starts: Mapping[str, Value] | None = None) -> Reci
     own = depth.film.partition(":")[0]
     # the films of this package travel together, so that units of all depths share their sources
     films = sorted({module for module in modules if module.startswith("bearing_fmu.")} | {own})
-    promised = ((MEMORYLESS, not depth.memory), (ISOTROPIC, depth.isotropic), (AFFINE, depth.affine))
+    forgetting = [] if depth.memory else [b for b in depth.boundaries if b not in depth.remembering]
+    forgets = not (depth.memory or depth.remembering)
+    promised = (
+        (MEMORYLESS, forgets),
+        *((memoryless_with(word), not forgets) for word in forgetting),
+        (ISOTROPIC, depth.isotropic),
+        (AFFINE, depth.affine),
+    )
     return Recipe(
         file_name=file_name(name),
         name=f"{PREFIX}{name}",

@@ -3,6 +3,8 @@
 ``memoryless``: its outputs after a step follow from the inputs at its end alone.  Such a unit needs no
 saved state to take a step back: the next step on other inputs overwrites all.
 
+``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word.
+
 ``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
 
 ``affine``: its wrench is the affine law itself, at any state: stiffness and damping are constants.
@@ -14,7 +16,13 @@ from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement
 
 MEMORYLESS, ISOTROPIC, AFFINE = "memoryless", "isotropic", "affine"
+BOUNDARY = "film.boundary"
 _TOOL, _MARK = "bladeloss", "Promises"
+
+
+def memoryless_with(boundary: str) -> str:
+    """The promise of a unit that has no memory with this rupture of its film."""
+    return f"{MEMORYLESS}_with_{boundary}"
 
 
 def annotate(description: Element, promises: Iterable[str]) -> None:

@@ -91,7 +91,7 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
             name, "parameter", "", f"{text}: {', '.join(choices)}", choices[0], kind="String", choices=choices
         )
         for name, text, choices in (
-            ("film.boundary", "where the film ruptures", ("guembel", "reynolds")),
+            ("film.boundary", "where the film ruptures", ("guembel", "reynolds", "jfo")),
             ("film.turbulence", "how the oil flows", ("laminar", "constantinescu")),
         )
     ),

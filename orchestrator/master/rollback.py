@@ -6,7 +6,7 @@ import ctypes
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
-from fmus.build.promises import MEMORYLESS
+from fmus.build.promises import BOUNDARY, MEMORYLESS, memoryless_with
 from orchestrator.errors import FmuError
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.graph import Graph
@@ -31,12 +31,8 @@ class Rollback:
         self._graph = graph
         self._inputs, self._outputs = graph.inputs.copy(), graph.outputs.copy()
         self._fixed = [u for u in units if not (MEMORYLESS in u.file.promises or u.file.can_keep_state)]
-        kept = (
-            []
-            if self._fixed
-            else [_KeptState(unit) for unit in units if MEMORYLESS not in unit.file.promises]
-        )
-        self._kept = tuple(kept)
+        self._units = () if self._fixed else tuple(units)
+        self._kept: tuple[_KeptState, ...] | None = None
         self._marked = False
 
     @property
@@ -62,6 +58,8 @@ class Rollback:
 
     def mark(self) -> None:
         """Remember the present state in place of the last mark."""
+        if self._kept is None:  # by now the units know their parameters
+            self._kept = tuple(_KeptState(unit) for unit in self._units if not forgets(unit))
         for state in self._kept:
             state.keep()
         self._inputs[:] = self._graph.inputs
@@ -79,13 +77,21 @@ class Rollback:
         self.require("a repeated step")
         if not self._marked:
             raise ValueError("a system is taken back to a mark, and none was set")
-        for state in self._kept:
+        for state in self._kept or ():
             state.go_back()
 
     def close(self) -> None:
         """Free the kept states."""
-        for state in self._kept:
+        for state in self._kept or ():
             state.free()
+
+
+def forgets(unit: Unit) -> bool:
+    """Whether a unit promises to be memoryless, with the parameters that it has."""
+    promises = unit.file.promises
+    if MEMORYLESS in promises or not any(word.startswith(MEMORYLESS) for word in promises):
+        return MEMORYLESS in promises
+    return memoryless_with(unit.get_string(BOUNDARY)) in promises
 
 
 class _KeptState:

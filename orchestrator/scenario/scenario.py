@@ -102,8 +102,9 @@ class FilmSettings(Model):
     columns, rows : int
         Resolution around the circumference and along the axis of those that solve the Reynolds equation.
     boundary : str
-        Where the film ruptures: "guembel", negative pressure is zeroed, as in the paper; or "reynolds",
-        pressure and its gradient vanish together, which the short bearing does not offer.
+        Where the film ruptures: "guembel", negative pressure is zeroed, as in the paper; "reynolds", pressure
+        and its gradient vanish together, which the short bearing does not offer; or "jfo", mass-conserving
+        rupture and reformation in time, at depth v1, with oil from grooves or ambient_pressure > 0.
     turbulence : str
         "laminar", as in the paper, or "constantinescu": flow and friction by the local Reynolds number.
     """

@@ -13,6 +13,8 @@ from bearing_fmu.contact.contact import add_tilted, sliding_sense
 from bearing_fmu.contact.layer import layer_table
 from bearing_fmu.evaluate import one_kernel, port_kernel
 from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
+from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.layered import LayeredFilm, layered_film, solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.reynolds import solve_pressure
@@ -100,4 +102,6 @@ LAYERED = Solver(
 
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
+    if values.get("film.boundary") == "jfo":
+        return ConservingFilm.of(CONSERVING, values)
     return Film.of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)

@@ -1,0 +1,91 @@
+"""V1 with a mass-conserving film: its solver, and the film with memory."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.bore.bore import Bore, bore_of
+from bearing_fmu.contact.contact import add_tilted
+from bearing_fmu.evaluate import port_kernel
+from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.jfo.network import balance
+from bearing_fmu.films.jfo.reynolds import conclude, set_up
+from bearing_fmu.films.jfo.tangent import add_jfo_tangent
+from bearing_fmu.films.jfo.workspace import STEP, JfoFilm, jfo_film
+from bearing_fmu.films.tilted.workspace import STOCK
+from bearing_fmu.kernels.compiled import stage
+from bearing_fmu.outputs import OUTPUTS
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.scales import Scales
+from bearing_fmu.status import OK
+from bearing_fmu.stock import bring_back
+
+Floats = NDArray[np.float64]
+
+
+@stage
+def _solve(
+    film: JfoFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
+) -> int:
+    reynolds = scales.reynolds * abs(speed)
+    set_up(film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds)
+    status, _ = balance(film.net)
+    if status == OK:
+        conclude(film, bore, reynolds, result)
+        add_jfo_tangent(film, bore, q, v, speed, result)
+    return status
+
+
+def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> JfoFilm:
+    bore = bore_of(parameters.arcs, parameters.columns)
+    held = np.zeros(0, dtype=np.int64) if bore is None else bore.held
+    aspect = parameters.diameter / parameters.width
+    return jfo_film(parameters.columns, parameters.rows, aspect, held, 1.0, space)
+
+
+SOLVER = Solver(
+    name="mass-conserving",
+    kernel=port_kernel("jfo", _solve, add_tilted),
+    prepare=_prepare,
+    tilts=True,
+    bores=True,
+    boundaries=("jfo",),
+    stock=STOCK,
+)
+
+
+class ConservingFilm(Film):
+    """Prepared evaluator of one bearing with a mass-conserving film, see `bearing_fmu.depths.Film`.
+
+    Its state is what `films.jfo.content` remembers; empty before the first evaluation.
+    """
+
+    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
+        """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
+        out = np.empty(OUTPUTS)
+        status, now = self._advance(state, inputs, self.offset, dt, out)
+        if status:
+            raise self.failure(status, inputs, self.offset)
+        return out, now
+
+    def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
+        """Evaluate the port in balance with the inputs, see `Film.solve`."""
+        return self._advance(self.rest(), inputs, offset, 0.0, out)[0]
+
+    def _advance(
+        self, state: Floats, inputs: Floats, offset: Floats, dt: float, out: Floats
+    ) -> tuple[int, Floats]:
+        """A code of `FilmStatus`, and what is remembered after the step."""
+        space, data = self.take()
+        try:
+            jfo: JfoFilm = data[3]
+            jfo.time[STEP] = dt if state.size else 0.0
+            if state.size:
+                jfo.then[:] = state
+            status = self._kernel(inputs, offset, out, *data)
+            return status, jfo.now.copy()
+        finally:
+            bring_back(self._free, space)

@@ -1,0 +1,199 @@
+"""The mass-conserving film of a bearing: published bearing, tangent, mass, memory."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from bearing_fmu.film import make_film
+from bearing_fmu.films.jfo.network import PRESSURE, balance
+from bearing_fmu.films.jfo.reynolds import conclude, set_up
+from bearing_fmu.films.jfo.workspace import KEPT, OWED, STEP, VOID, VOLUME, axial_faces
+from bearing_fmu.kernels.grid import COS, SIN
+from bearing_fmu.outputs import OUT_C, OUT_K
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import RESULTS
+
+GROOVED = "[[0.2, 2.94, 0, 0], [3.34, 6.08, 0, 0]]"
+SPEED, STEP_LENGTH = 157.0, 1e-4
+
+
+def bearing(**changes):
+    values = {
+        "diameter": 0.8, "width": 0.64, "clearance": 8.62e-4, "viscosity": 0.0242, "ambient_pressure": 1e5,
+        "feed_pressure": 1.5e5, "roughness": 3e-6, "contact_modulus": 1e9, "friction": 0.1, "boundary": "jfo",
+    }  # fmt: skip
+    return make_film("v1", BearingParameters(**values | changes))
+
+
+def along(t: float) -> np.ndarray:
+    """Inputs of a journal that moves and tilts, at an instant."""
+    c, swing, rate = 8.62e-4, np.array([0.05, 0.1, 0.02, 0.03]) * 8.62e-4, 300.0
+    inputs = np.zeros(17)
+    inputs[:4] = np.array([0.3 * c, -0.6 * c, 2e-4, -3e-4]) + swing * (1.0 - np.cos(rate * t))
+    inputs[4:8], inputs[16] = swing * rate * np.sin(rate * t), SPEED
+    return inputs
+
+
+def after(film, steps, dt=STEP_LENGTH):
+    """State after some steps."""
+    _, state = film.evaluate(film.rest(), along(0.0), 0.0)
+    for k in range(1, steps + 1):
+        _, state = film.evaluate(state, along(k * dt), dt)
+    return state
+
+
+def cells_of(film, state):
+    n, m = film.parameters.rows, film.parameters.columns
+    return state[m:].reshape(KEPT, n, m)
+
+
+def test_a_parabola_is_met_exactly_by_the_axial_faces():
+    heights, spans = axial_faces(8)
+    film = bearing()
+    space, data = film.take()
+    z = np.concatenate(([-1.0], data[3].film.nodes[:8], [1.0]))
+    film.bring_back(space)
+    flux = -np.diff(0.5 * (1.0 - z**2)) / spans
+    np.testing.assert_allclose(flux, heights, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("bore", ["plain", GROOVED])
+@pytest.mark.parametrize("steps", [0, 30])
+def test_the_tangent_is_that_of_the_step(bore, steps):
+    """Against central differences of a step from what is remembered, grid and fronts in motion."""
+    film = bearing(bore=bore)
+    state, now = after(film, steps), along((steps + 1) * STEP_LENGTH)
+    now[2:4] *= 1.02
+    out, _ = film.evaluate(state, now, STEP_LENGTH)
+    for place, first, steps_of in ((OUT_K, 0, (1e-9, 3e-9)), (OUT_C, 4, (1e-6, 3e-6))):
+        told = out[place : place + 16].reshape(4, 4)
+        for k in range(4):
+            moved = np.zeros(17)
+            moved[first + k] = steps_of[k // 2]
+            up, down = (film.evaluate(state, now + s * moved, STEP_LENGTH)[0][:4] for s in (1.0, -1.0))
+            found = (down - up) / (2.0 * steps_of[k // 2])
+            np.testing.assert_allclose(found, told[:, k], rtol=0, atol=1e-6 * np.abs(told).max(axis=1).max())
+
+
+@pytest.mark.parametrize("bore", ["plain", GROOVED])
+def test_no_oil_is_lost(bore):
+    """Content and what is owed change by the flow over ends and grooves, to 1e-12 of it, each step."""
+    film = bearing(bore=bore)
+    n, m = film.parameters.rows, film.parameters.columns
+    state = after(film, 5)
+    space, data = film.take()
+    jfo = data[3]
+    film.bring_back(space)
+    free = jfo.net.held[0] == 0.0
+    for k in range(6, 40):
+        before = np.array(state)
+        _, state = film.evaluate(before, along(k * STEP_LENGTH), STEP_LENGTH)
+        net, kept, had = jfo.net, cells_of(film, state), jfo.before
+        oil = (kept[VOLUME] - kept[VOID] + kept[OWED])[:, free].sum()
+        oil -= (had[VOLUME] - had[VOID] + had[OWED])[:, free].sum()
+        p, ahead = net.pressure, np.roll(net.pressure, -1, axis=1)
+        around = net.carried * net.content - net.around * (ahead - p)
+        out = (net.axial[0] * (p[0] - net.ends) + net.axial[-1] * (p[-1] - net.ends))[free].sum()
+        out += (around - np.roll(around, 1, axis=1))[:, free].sum()
+        total = kept[VOLUME].sum()
+        assert abs(oil + 0.5 * STEP_LENGTH * out) < 1e-12 * total
+        # brought over to another grid it is the same, and what is owed stays a trifle
+        old = before[m:].reshape(KEPT, n, m).sum(axis=2)
+        np.testing.assert_allclose(had.sum(axis=2), old, rtol=0, atol=1e-12 * total)
+        assert np.abs(kept[OWED]).sum() < 1e-2 * total
+        assert kept[VOID].min() > -1e-9 * kept[VOLUME].max()
+    assert 0.5 < jfo.net.full.mean() < 0.95
+
+
+def test_a_sealed_bearing_keeps_its_oil():
+    """Without flow over the ends, to 1e-10 a step; and what is owed stays small."""
+    film, most = bearing(), []
+    space, data = film.take()
+    data[3].spans[[0, -1]] = np.inf
+    film.bring_back(space)
+    for step in (STEP_LENGTH, 0.5 * STEP_LENGTH):
+        state = after(film, 0)
+        cells_of(film, state)[VOID] = 0.2 * cells_of(film, state)[VOLUME]
+        oil, owed = None, 0.0
+        for k in range(1, round(0.02 / step)):
+            _, state = film.evaluate(state, along(k * step), step)
+            kept = cells_of(film, state)
+            now = (kept[VOLUME] - kept[VOID] + kept[OWED]).sum()
+            assert oil is None or abs(now - oil) < 1e-10 * now
+            oil, owed = now, max(owed, np.abs(kept[OWED]).sum() / now)
+        most.append(owed)
+    assert most[0] < 0.02
+
+
+def test_a_film_in_balance_stays_as_it_is():
+    film = bearing(bore=GROOVED)
+    first, state = film.evaluate(film.rest(), along(0.0), 0.0)
+    for _ in range(50):
+        later, state = film.evaluate(state, along(0.0), STEP_LENGTH)
+    np.testing.assert_allclose(later[:4], first[:4], rtol=2e-6)
+    reynolds = bearing(bore=GROOVED, boundary="reynolds")
+    steady, _ = reynolds.evaluate(reynolds.rest(), along(0.0), 0.0)
+    assert np.hypot(*first[:2]) == pytest.approx(np.hypot(*steady[:2]), rel=0.03)
+
+
+def test_the_film_remembers():
+    """The same state a little later, after the film was torn or not, is not the same film."""
+    film = bearing(bore=GROOVED)
+    still = after(film, 0)
+    torn = after(film, 60)
+    here = film.evaluate(still, along(0.0), STEP_LENGTH)[0]
+    there = film.evaluate(torn, along(0.0), STEP_LENGTH)[0]
+    assert abs(np.hypot(*there[:2]) / np.hypot(*here[:2]) - 1.0) > 1e-3
+    again = film.evaluate(torn, along(0.0), STEP_LENGTH)[0]
+    assert again.tobytes() == there.tobytes()
+
+
+def test_a_bearing_without_oil_is_refused():
+    with pytest.raises(ValueError, match="boundary = 'jfo': oil must come from somewhere"):
+        bearing(ambient_pressure=0.0)
+
+
+@pytest.mark.parametrize("ends", [0.0, 4e3])
+def test_an_elrod_bearing_with_a_groove_of_part_of_its_width(ends):
+    """Stored fields of an independent program on 100 x 26 cells, quasi-static: within a few per cent.
+
+    Its ends hold full cells, which feed the film a little: full share and least content are those of ends
+    at 0.8 % of the largest pressure, and lower where nothing comes in.
+    """
+    diameter, width, clearance, viscosity, speed = 0.1, 0.08, 1.5e-4, 0.01, 100.0 * np.pi
+    parameters = BearingParameters(
+        diameter, width, clearance, viscosity, ambient_pressure=1.0, columns=96, rows=24, boundary="jfo"
+    )
+    film = make_film("v1", parameters)
+    space, data = film.take()
+    jfo, unit = data[3], float(data[0][0]["pressure"])
+    q, v, result = np.array([0.5, 0.0, 0.0, 0.0]), np.zeros(4), np.zeros(RESULTS)
+    jfo.time[STEP] = 0.0
+
+    def solve():
+        set_up(jfo, None, q, v, speed, ends / unit, (7e4 + ends) / unit, 0.0, 0.0)
+        return balance(jfo.net)
+
+    solve()  # places the grid
+    angle = np.degrees(np.arctan2(jfo.film.rings[0, SIN], jfo.film.rings[0, COS]))
+    fed = np.abs(jfo.film.nodes[:24])[:, None] < 0.75
+    jfo.net.held[fed & (np.abs(angle - 90.0) < 7.5)[None, :]] = PRESSURE
+    status, _ = solve()
+    assert status == 0
+    conclude(jfo, None, 0.0, result)
+    film.bring_back(space)
+    force = result[:2] * float(data[0][0]["force"])
+    pressure = jfo.net.pressure * unit
+    share = jfo.volumes / (jfo.film.column[1, :24, :96])
+    full = (share * jfo.net.full).sum() / share.sum()
+    mean = (share * jfo.net.content).sum() / share.sum()
+    peak = np.unravel_index(pressure.argmax(), pressure.shape)
+    np.testing.assert_allclose(-force, (1055.4, -1383.3), rtol=0.05)  # that on the bearing
+    assert pressure.max() == pytest.approx(523.4e3, rel=0.05)
+    assert angle[peak[1]] % 360.0 == pytest.approx(320.4, abs=4.0)
+    assert mean == pytest.approx(0.943, rel=0.05)
+    if ends:
+        assert full == pytest.approx(0.643, rel=0.05)
+        assert jfo.net.content.min() == pytest.approx(0.55, rel=0.05)
+    assert np.hypot(*force) == pytest.approx(1739.9, rel=0.05)

@@ -1,0 +1,85 @@
+"""The memory of a mass-conserving film is state of its FMU: taken on, taken back and read, to the bit."""
+
+import numpy as np
+import pytest
+
+from fmus import port
+from orchestrator.fmi.file import FmuFile
+from orchestrator.fmi.unit import Unit
+from orchestrator.master.rollback import forgets
+
+OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
+INPUTS = [v.name for v in port.BEARING_INPUTS]
+STEP = 1e-4
+
+
+def place(k: int) -> dict[str, float]:
+    """Inputs of a journal on an orbit, tilting, at step k."""
+    t, inputs = k * STEP, np.zeros(17)
+    turn, swing = 300.0 * t, 1e-4
+    inputs[:2] = 2e-4 + swing * np.cos(turn), -4e-4 + swing * np.sin(turn)
+    inputs[4:6] = -300.0 * swing * np.sin(turn), 300.0 * swing * np.cos(turn)
+    inputs[2], inputs[16] = 5e-5, 157.0
+    return dict(zip(INPUTS, inputs, strict=True))
+
+
+def go(unit, first: int, last: int) -> list[list[float]]:
+    """Outputs of some steps."""
+    found = []
+    for k in range(first, last):
+        unit.set(place(k + 1))
+        assert unit.step(k * STEP, STEP), unit.said
+        found.append(unit.get(*OUTPUTS))
+    return found
+
+
+@pytest.fixture
+def units(hosts):
+    opened = [hosts["bearing_v1.fmu"].open(name) for name in ("one", "other")]
+    for unit in opened:
+        unit.start(
+            {"film.boundary": "jfo", "ambient_pressure": 1e5, "film.columns": 24, "film.rows": 4} | place(0)
+        )
+    yield opened
+    for unit in opened:
+        unit.slave.freeInstance()
+
+
+def test_what_the_film_remembers_goes_with_the_unit(units):
+    one, other = units
+    go(one, 0, 20)
+    at_20, handle = one.state(), one.keep()
+    on = go(one, 20, 40)
+    other.restore(at_20)  # another instance, from bytes
+    assert go(other, 20, 40) == on
+    one.go_back(handle)
+    assert go(one, 20, 40) == on
+    # a step that was taken back leaves no trace, however far it went
+    one.go_back(handle)
+    one.set(place(30))
+    assert one.step(20 * STEP, 10 * STEP)
+    one.go_back(handle)
+    assert go(one, 20, 40) == on
+    assert one.serialise(handle) == at_20
+
+
+def test_it_is_no_trifle(units):
+    """After another past the same state gives another force."""
+    one, other = units
+    go(one, 0, 40)
+    one.set(place(0))
+    other.set(place(0))
+    assert one.step(40 * STEP, STEP)
+    assert other.step(40 * STEP, STEP)
+    force = [np.hypot(*unit.get("wrench.Fx", "wrench.Fy")) for unit in (one, other)]
+    assert abs(force[0] / force[1] - 1.0) > 1e-3
+
+
+@pytest.mark.parametrize(("boundary", "forgotten"), [("guembel", True), ("reynolds", True), ("jfo", False)])
+def test_the_master_marks_units_that_remember_only(built, tmp_path, boundary, forgotten):
+    file = FmuFile(built["bearing_v1.fmu"], tmp_path)
+    unit = Unit(file, "bearing")
+    unit.set_parameters({"film.boundary": boundary})
+    assert forgets(unit) is forgotten
+    unit.close()
+    file.close()
