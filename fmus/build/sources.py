@@ -8,6 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
+_BLOCKS = ("body", "orelse", "handlers", "finalbody", "cases")
+"""Where the statements inside a statement are."""
+
 
 def package_folder(package: str) -> Path:
     """Return the folder of an importable package.
@@ -42,11 +45,15 @@ def source_files(modules: Iterable[str], packages: Sequence[str]) -> dict[str, d
     """
     folders = {package: package_folder(package) for package in packages}
     found: dict[str, Path] = {}
+    seen: set[str] = set()
     waiting = list(modules)
     while waiting:
         module = waiting.pop()
+        if module in seen:
+            continue
+        seen.add(module)
         path = _file_of(module, folders)
-        if module in found or path is None:
+        if path is None:
             continue
         found[module] = path
         waiting.extend(_imports(path, path.stat().st_mtime_ns))
@@ -76,7 +83,11 @@ def _imports(path: Path, _changed: int) -> tuple[str, ...]:
 
 def _imported(path: Path) -> Iterator[str]:
     """Yield the modules that a file may import, names imported from a package among them."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))):
+    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"), str(path))]
+    while waiting:  # statements and what holds statements: expressions, most of a file, import nothing
+        node = waiting.pop()
+        for block in _BLOCKS:
+            waiting.extend(getattr(node, block, ()))
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # scipy.optimize is loaded where it is used: few runs need it
 import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from rotor_fmu.linear.whirl import Bearings, WhirlModes, whirl_modes
 from rotor_fmu.reduction.reduce import ReducedShaft
@@ -115,7 +115,9 @@ def thresholds(modes_at: Callable[[float], WhirlModes], speeds: list[float]) -> 
     found = []
     for k in range(len(speeds) - 1):
         if (values[k] > 0.0) != (values[k + 1] > 0.0):
-            root = brentq(damping, speeds[k], speeds[k + 1], xtol=1e-9 * speeds[k + 1], rtol=1e-9)
+            root = scipy.optimize.brentq(
+                damping, speeds[k], speeds[k + 1], xtol=1e-9 * speeds[k + 1], rtol=1e-9
+            )
             found.append((float(root), values[k + 1] <= 0.0))
     return found
 
@@ -240,7 +242,9 @@ def _crossing(
         k += way
         if line[k] < level:
             ends = sorted((float(speeds[k - way]), float(speeds[k])))
-            return float(brentq(lambda speed: float(amplitude(speed)[probe]) - level, *ends, rtol=1e-9))
+            return float(
+                scipy.optimize.brentq(lambda speed: float(amplitude(speed)[probe]) - level, *ends, rtol=1e-9)
+            )
         if line[k] > line[peak]:
             return None
     return None

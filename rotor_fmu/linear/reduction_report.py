@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # scipy.optimize is loaded where it is used: few runs need it
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linear_sum_assignment
 
 from rotor_fmu.linear.harmonic import static_response, unbalance_responses
 from rotor_fmu.linear.whirl import Bearings, campbell
@@ -165,5 +165,5 @@ def matched(exact: Complex, offered: Complex) -> Complex:
     exact, offered : ndarray of complex, (k,), (l,)
         With l >= k.
     """
-    _, chosen = linear_sum_assignment(np.abs(exact[:, None] - offered))
+    _, chosen = scipy.optimize.linear_sum_assignment(np.abs(exact[:, None] - offered))
     return offered[chosen]

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
+import scipy  # scipy.optimize is loaded where it is used: few runs need it
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, minimize_scalar
 
 from rotor_fmu.linear.tracking import ModesAt, Tracks, modal_assurance
 from rotor_fmu.linear.whirl import WhirlModes
@@ -44,7 +44,11 @@ def resonances(tracks: Tracks, modes_at: ModesAt, speeds: ArrayLike) -> list[tup
     for k, track in zip(*np.nonzero(lead[:-1] * lead[1:] < 0.0), strict=True):
         ahead = partial(_ahead, modes_at, tracks.modes[k], int(tracks.index[k, track]))
         try:
-            root = float(brentq(lambda speed, ahead=ahead: ahead(speed)[0], at[k], at[k + 1], rtol=1e-10))
+            root = float(
+                scipy.optimize.brentq(
+                    lambda speed, ahead=ahead: ahead(speed)[0], at[k], at[k + 1], rtol=1e-10
+                )
+            )
         except ValueError:  # its shape changes so fast that another one is taken for it at an end
             root = 0.5 * float(at[k] + at[k + 1])
         found.append((root, ahead(root)[1]))
@@ -83,7 +87,7 @@ def refined(amplitude: Callable[[float], float], grid: ArrayLike, poles: list[tu
     inner = np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:])) + 1
     peaks = []
     for k in inner:
-        best = minimize_scalar(
+        best = scipy.optimize.minimize_scalar(
             lambda speed: -np.log(amplitude(speed)),
             bounds=(speeds[k - 1], speeds[k + 1]),
             method="bounded",

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # scipy.optimize is loaded where it is used: few runs need it
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from rotor_fmu.linear.whirl import WhirlModes
 
@@ -100,7 +100,7 @@ def most_alike(a: WhirlModes, b: WhirlModes) -> tuple[Index, Array]:
     alike = modal_assurance(a, b)
     left, right = a.eigenvalues[:, None], b.eigenvalues
     apart = np.abs(left - right) / (np.abs(left) + np.abs(right))
-    rows, columns = linear_sum_assignment(1.0 - alike + apart)
+    rows, columns = scipy.optimize.linear_sum_assignment(1.0 - alike + apart)
     found, quality = np.full(len(alike), -1), np.zeros(len(alike))
     quality[rows] = alike[rows, columns]
     found[rows] = np.where(quality[rows] > UNLIKE, columns, -1)
