@@ -44,6 +44,7 @@ LONG_FUNCTIONS: set[str] = set()
 # for a unit to step in.
 OF_PHYSICS_FOR_THE_MASTER = {
     "bearing_fmu.depths",
+    "bearing_fmu.film_map",  # a picture: what a unit does not give
     "bearing_fmu.recipe",
     "rotor_fmu.recipe",
     "rotor_fmu.train.train",

@@ -47,7 +47,7 @@ def compare(
         typer.Option(
             metavar="DEPTH",
             parser=one_of(Depth, "--depth"),
-            help="To be compared; repeatable, by default all.",
+            help="To be compared; repeatable, by default all that solve a film.",
         ),
     ] = None,
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,
@@ -88,7 +88,7 @@ def compare(
 
         formats = tuple(str(item) for item in figure_format or [Format.PNG]) if figures else ()
         overrides = {key: value for key, value in given.items() if value is not None}
-        depths = tuple(map(str, depth or Depth))
+        depths = tuple(map(str, depth or ()))
         request = CompareRequest(
             scenario, overrides, out, fmus or fmu_folder(), depths, jobs, check, formats, budget
         )

@@ -23,6 +23,7 @@ REPORT_EPILOG = """\
 
   bladeloss report results/paper-v1                     into its folder
   bladeloss report results/paper-v* --out depths.html   side by side
+  bladeloss report results/paper-v1 --pdf               and to be printed
   bladeloss run small --report                          with a run
 
 [bold]Exit status[/bold]
@@ -52,6 +53,7 @@ class ReportOptions:
     limits: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Limits in place of those of the runs (TOML).")
     ] = None
+    pdf: Annotated[bool, typer.Option("--pdf", help="The same for printing beside it, as a PDF.")] = False
 
 
 def register(app: typer.Typer) -> None:
@@ -65,4 +67,4 @@ def report(options: ReportOptions) -> int:
 
     from orchestrator.commands.report import ReportRequest, run
 
-    return run(ReportRequest(options.results, options.out, options.bearing, options.limits), Console())
+    return run(ReportRequest(**vars(options)), Console())

@@ -56,7 +56,7 @@ class CompareRequest:
     fmus : Path
         Folder of the FMUs.
     depths : sequence of str
-        To be compared; empty: all.
+        To be compared; empty: all that solve a film.
     jobs : int or None
         Runs at the same time; None: one a core.
     check : bool
@@ -105,7 +105,7 @@ def run(
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
     refined = refine(scenario) if request.check else None
-    train, asked = train_of(scenario), request.depths or registry.names()
+    train, asked = train_of(scenario), request.depths or registry.films()
     depths = [depth for depth in registry.names() if depth in asked]
     folder = named(request.out) if request.out else Path("results") / f"{Path(request.source).stem}-compare"
     for place in (folder, partial_folder(folder)):

@@ -11,7 +11,7 @@ from rich.console import Console
 from orchestrator.report.facts import conclusion
 from orchestrator.report.library import require_library
 from orchestrator.report.source import ReportError, load_results
-from orchestrator.report.write import FILE, write_report
+from orchestrator.report.write import FILE, write_print, write_report
 from orchestrator.results import manifest
 from orchestrator.results.files import add
 from orchestrator.results.verdicts.limits import load_limits
@@ -31,12 +31,15 @@ class ReportRequest:
         That the page opens with; None: the one with the worst verdict.
     limits : Path or None
         Limits in place of those that the runs were given.
+    pdf : bool
+        Write the same to be printed beside it.
     """
 
     results: Sequence[Path]
     out: Path | None = None
     bearing: str | None = None
     limits: Path | None = None
+    pdf: bool = False
 
     @property
     def file(self) -> Path:
@@ -62,13 +65,23 @@ def run(request: ReportRequest, console: Console) -> int:
     limits = None if request.limits is None else load_limits(request.limits)
     results = load_results(request.results, limits)
     path = request.file
-    if path.name == FILE and manifest.read(path.parent):  # a part of these results, listed with them
-        add(path.parent, "report", lambda fresh: write_report(results, fresh / FILE, request.bearing))
+    bearing, paper = request.bearing, path.with_suffix(".pdf")
+    own = path.name == FILE and bool(manifest.read(path.parent))  # a part of these results, listed with them
+
+    def write(folder: Path) -> None:
+        write_report(results, folder / path.name, bearing)
+        if request.pdf:
+            write_print(results, folder / paper.name, bearing)
+
+    if own:
+        add(path.parent, "report", write)
     else:
-        write_report(results, path, request.bearing)
+        write(path.parent)
     for result in results:
         said = conclusion(result).sentence(result.name)
         console.print(said, highlight=False, markup=False, soft_wrap=True)
-    size = path.stat().st_size / 1e6
-    console.print(f"\nReport in {path} ({size:.1f} MB)", highlight=False, markup=False, soft_wrap=True)
+    said = ", ".join(
+        f"{file} ({file.stat().st_size / 1e6:.1f} MB)" for file in (path, paper)[: 1 + request.pdf]
+    )
+    console.print(f"\nReport in {said}", highlight=False, markup=False, soft_wrap=True)
     return 0

@@ -11,15 +11,15 @@ from enum import StrEnum
 import numpy as np
 
 from orchestrator.outcome import Outcome
-from orchestrator.report.panels.spectra import probes_of
 from orchestrator.report.source import Result
+from orchestrator.results.journals import probes_of
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import ledger_of
 from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown
 from orchestrator.results.signals.orders import order_amplitudes, probe_signals
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, defect_statistics
 from orchestrator.results.verdicts.conclusion import Conclusion, conclude
-from orchestrator.results.verdicts.verdict import Grade
+from orchestrator.results.verdicts.verdict import Grade, Verdict
 from orchestrator.results.windows import Phase
 
 DEFECT_FINE, DEFECT_COARSE = 0.02, 0.1
@@ -143,6 +143,16 @@ def _model(result: Result) -> str:
     return ", ".join(parts)
 
 
+VERDICT_HEADS = ("limit", "where", "phase", "value", "allowed", "used", "instant", "", "source")
+
+
+def verdict_cells(v: Verdict) -> tuple[str, ...]:
+    """A verdict in words, in the order of `VERDICT_HEADS`."""
+    when = "" if v.instant is None or not math.isfinite(v.instant) else f"{v.instant:.4f} s"
+    figures = v.value_text(), v.bound_text(), v.share_text()
+    return (v.limit, v.place, v.phase, *figures, when, v.note, v.source_text())
+
+
 @dataclass(frozen=True)
 class BearingLine:
     """A bearing at a glance: cells of a table, and its worst grade."""
@@ -191,6 +201,6 @@ def _orders(result: Result, bearing: str, phase: Phase) -> tuple[float, ...]:
     inside = phase.mean.mask(result.time)
     if np.count_nonzero(inside) < 8:
         return (math.nan,) * 3
-    signal = probe_signals(result.journal(bearing)[:, inside], probes_of(result)[:1])[0]
+    signal = probe_signals(result.journal(bearing)[:, inside], probes_of(result.record)[:1])[0]
     found = order_amplitudes(result.time[inside], signal, result.speed, (0.5, 1.0, 2.0))
     return tuple(float(a) for a in np.abs(found))

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from orchestrator.report.encode import squeezed, to_json
-from orchestrator.report.facts import BEARING_HEADS, bearing_lines, conclusion, finished, trust
+from orchestrator.report.facts import (
+    BEARING_HEADS,
+    VERDICT_HEADS,
+    bearing_lines,
+    conclusion,
+    finished,
+    trust,
+    verdict_cells,
+)
 from orchestrator.report.html import Markup, dot, joined, row, table, tag, void
 from orchestrator.report.library import require_library
 from orchestrator.report.panels.orbits import LEGEND
@@ -30,7 +37,15 @@ SECTIONS = {
         "revolutions, before the event and from where means are taken behind it.",
     ),
     "waterfall": ("Waterfall", "The same at the first probe over time."),
-    "pressure": ("Film pressure", "Unwrapped film at the worst instants of the record; 0° is x, 90° is up."),
+    "bode": (
+        "Bode plot over speed",
+        "1X at the first probe, zero to peak; its phase counts from the start.",
+    ),
+    "pressure": (
+        "Film pressure",
+        "Unwrapped film at the worst instants of the record; 0° is x, 90° is up. White: lines of equal gap "
+        "to the rigid bore in µm; cross: least gap.",
+    ),
     "shaft": ("Shaft", "From the static line; stresses are nominal, from bending."),
     "shaft3d": (
         "Deformed shaft",
@@ -39,7 +54,6 @@ SECTIONS = {
     ),
 }
 """Heading and words of each section, in their order on the page."""
-VERDICT_HEADS = ("limit", "where", "phase", "value", "limit", "used", "instant", "", "source")
 _TEXTS = (0, 1, 2, 7, 8)
 
 
@@ -195,20 +209,8 @@ def _verdicts(results: Sequence[Result]) -> Markup:
 
 def verdict_row(v: Verdict) -> Markup:
     """A verdict in a table."""
-    when = "" if v.instant is None or not math.isfinite(v.instant) else f"{v.instant:.4f} s"
-    mark = joined([dot(v.grade), v.limit])
-    cells = (
-        mark,
-        v.place,
-        v.phase,
-        v.value_text(),
-        v.bound_text(),
-        v.share_text(),
-        when,
-        v.note,
-        v.source_text(),
-    )
-    return row(cells, _TEXTS, klass=str(v.grade))
+    limit, *others = verdict_cells(v)
+    return row((joined([dot(v.grade), limit]), *others), _TEXTS, klass=str(v.grade))
 
 
 def _bearings(results: Sequence[Result]) -> Markup:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,7 +20,7 @@ from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.statistics import analysed_bearing, contact_threshold
 from orchestrator.results.verdicts.judge import judge, own_limits
 from orchestrator.results.verdicts.limits import Limits
-from orchestrator.results.verdicts.verdict import Verdict, worst
+from orchestrator.results.verdicts.verdict import Grade, Verdict, worst
 from orchestrator.results.windows import Phase, phases
 
 SUMMARY_FILE = "summary.json"
@@ -67,6 +68,11 @@ class Result:
     def speed(self) -> float:
         """Speed of rotation in rad/s."""
         return float(self.record.attrs["speed"])
+
+    @property
+    def turn(self) -> float:
+        """Length of a revolution in s."""
+        return 2.0 * math.pi / abs(self.speed)
 
     @cached_property
     def bearings(self) -> tuple[str, ...]:
@@ -151,7 +157,7 @@ def shown_bearing(results: Sequence[Result], named: str | None = None) -> str:
             raise ReportError(f"--bearing {named}: no such bearing; allowed are {', '.join(known)}")
         return named
     verdicts = worst(verdict for result in results for verdict in result.verdicts if verdict.bearing)
-    if verdicts and verdicts[0].share > 1.0:
+    if verdicts and verdicts[0].grade is Grade.BEYOND:
         return verdicts[0].bearing
     return analysed_bearing(results[0].record)
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from orchestrator.errors import NotWrittenError
 from orchestrator.report.page import page
+from orchestrator.report.panels.bode import bode
 from orchestrator.report.panels.orbits import orbits
 from orchestrator.report.panels.panel import Panel
+from orchestrator.report.panels.pressure import film_pressures
 from orchestrator.report.panels.series import bearing_series, shaft_series
 from orchestrator.report.panels.shaft import deformed_shafts
 from orchestrator.report.panels.spectra import spectra, waterfalls
@@ -42,17 +44,28 @@ def write_report(results: Sequence[Result], path: Path, bearing: str | None = No
     NotWrittenError
         When it cannot be written; an earlier one stays as it is.
     """
+    return _write_whole(path, lambda: report_text(results, bearing).encode())
+
+
+def write_print(results: Sequence[Result], path: Path, bearing: str | None = None) -> Path:
+    """Write the same to be printed, as a PDF; raises as `write_report`."""
+    from orchestrator.report.print import printed  # matplotlib loads for half a second
+
+    return _write_whole(path, lambda: printed(results, shown_bearing(results, bearing)))
+
+
+def _write_whole(path: Path, make: Callable[[], bytes]) -> Path:
     if (path.exists() or path.is_symlink()) and not _as_written(path):
         raise ReportError(
             f"{path}: is no report, or was changed since, and is left as it is; --out takes another file"
         )
-    content = report_text(results, bearing)
+    content = make()
     content += _sign(content)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=".report_", suffix=".html", dir=path.parent)
+        handle, name = tempfile.mkstemp(prefix=".report_", suffix=path.suffix, dir=path.parent)
         try:
-            with os.fdopen(handle, "w", encoding="utf-8") as file:
+            with os.fdopen(handle, "wb") as file:
                 file.write(content)
             Path(name).chmod(0o666 & ~umask())
             Path(name).replace(path)
@@ -63,19 +76,21 @@ def write_report(results: Sequence[Result], path: Path, bearing: str | None = No
     return path
 
 
-def _sign(content: str) -> str:
-    return f"<!-- bladeloss {hashlib.sha256(content.encode()).hexdigest()} -->\n"
+def _sign(content: bytes) -> bytes:
+    """A comment behind the end of a page, or of a PDF."""
+    digest = hashlib.sha256(content).hexdigest()
+    return (f"% bladeloss {digest}    \n" if content.startswith(b"%PDF") else f"<!-- bladeloss {digest} -->\n").encode()
 
 
 def _as_written(path: Path) -> bool:
-    """Whether a file is a page as `write_report` left it."""
+    """Whether a file is a page, or a PDF, as it was written here."""
     if path.is_symlink() or not path.is_file():
         return False
     try:
-        content = path.read_text(encoding="utf-8")
-    except (OSError, ValueError):
+        content = path.read_bytes()
+    except OSError:
         return False
-    return content.endswith(_sign(content[: -len(_sign(""))]))
+    return content.endswith(_sign(content[: -len(_sign(b""))]))
 
 
 def _panels(results: Sequence[Result]) -> Iterator[Panel]:
@@ -83,5 +98,7 @@ def _panels(results: Sequence[Result]) -> Iterator[Panel]:
     yield from bearing_series(results)
     yield from spectra(results)
     yield from waterfalls(results)
+    yield from bode(results)
+    yield from film_pressures(results)
     yield from shaft_series(results)
     yield from deformed_shafts(results)

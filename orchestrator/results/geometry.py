@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
@@ -9,7 +10,7 @@ import xarray as xr
 
 from fmus import port
 from orchestrator.results.film_regime import regime_coordinates
-from orchestrator.scenario.parameters import wheel_unbalances
+from orchestrator.scenario.parameters import bearing_parameters, wheel_unbalances
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import Train
 
@@ -67,6 +68,11 @@ def train_variables(scenario: Scenario, train: Train) -> dict[str, Any]:
     result = {
         "rotor_speed": ((), train.speed, _words("rad/s", "speed of rotation")),
         **_columns("bearing", train.bearings, _BEARING),
+        "bearing_parameters": (
+            ("bearing",),
+            [json.dumps(bearing_parameters(seat, scenario.film)) for seat in train.bearings],
+            {"long_name": "what the unit of the bearing was given, SI units, as JSON"},
+        ),
         **_columns("shoulder", train.shoulders, _SHOULDER),
     }
     if train.wheels:

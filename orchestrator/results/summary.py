@@ -29,6 +29,7 @@ from orchestrator.results.statistics import (
     shaft_statistics,
 )
 from orchestrator.results.validity import ErrorEstimate, error_estimate
+from orchestrator.results.verdicts.judge import worst_bearing
 from orchestrator.results.windows import Phase, instants, phases
 
 if TYPE_CHECKING:
@@ -228,7 +229,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         defect=defect_statistics(record),
         error=error_estimate(record),
         ledger=ledger_of(record),
-        analysed=analysed_bearing(record, analysed) if found else None,
+        analysed=analysed_bearing(record, analysed or worst_bearing([record])) if found else None,
         phases=found,
         shaft=tuple(shaft_statistics(record, phase) for phase in found),
         bearings=tuple(bearings),

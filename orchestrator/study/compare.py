@@ -11,7 +11,7 @@ from rich.console import Console
 
 from orchestrator.case.certify import at_half_step
 from orchestrator.results.record_files import RECORD_FILE, read_record
-from orchestrator.results.statistics import analysed_bearing
+from orchestrator.results.verdicts.judge import worst_bearing
 from orchestrator.scenario.file import scenario_toml, with_overrides
 from orchestrator.study.children import COMMAND, Child, cores, run_children
 from orchestrator.study.comparison import Comparison, gather
@@ -100,7 +100,7 @@ def run_depths(
         written = (child.folder / RECORD_FILE).is_file()
         records[child.name] = read_record(child.folder) if written else None
     left = [record for record in records.values() if record is not None]
-    bearing = scenario.analysed_bearing or (analysed_bearing(left[0]) if left else train.bearings[0].name)
+    bearing = scenario.analysed_bearing or (worst_bearing(left) if left else train.bearings[0].name)
     return gather(records, ended, bearing, scenario, train), left
 
 

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from orchestrator.report.encode import packed
 from orchestrator.report.panels.panel import CALM, CONTACT, INK, Panel, Trace, axis, layout
 from orchestrator.report.source import Result
-from orchestrator.results.windows import Window
+from orchestrator.results.journals import BEFORE, FIRST, LAST, orbit_parts
 
 MICRO = 1e6
-BEFORE, FIRST, LAST = 2.0, 10.0, 5.0
-"""Revolutions shown before the event, behind it, and at the end of the run."""
 SAMPLES, MARKS = 1600, 150
 """Most samples of a line, and most marks of contact."""
 _EARLY, _LATE = "#9CC3E6", "#0B4F8A"
+_LOOKS = {"before": ("#111111", 2.0), "behind the event": (_EARLY, 1.0), "end of the run": (_LATE, 1.4)}
+"""Colour and width of each part."""
 
 
 def orbits(results: Sequence[Result]) -> Iterator[Panel]:
@@ -49,22 +49,6 @@ def _tick(reach: float) -> float:
     return float(power * next(step for step in (0.2, 0.5, 1.0, 2.0, 5.0) if reach / (step * power) <= 2.8))
 
 
-def _spans(result: Result) -> list[tuple[str, Window, str, float]]:
-    """What is shown: name, window, colour, width."""
-    turn = 2.0 * np.pi / abs(result.speed)
-    first, *later = result.phases
-    end = first.span.end
-    if not later:
-        name = "lasting" if first.name == "steady" else "after"
-        return [(name, Window(max(first.span.start, end - FIRST * turn), end), _LATE, 1.4)]
-    start, last = later[0].span.start, later[-1].span.end
-    return [
-        ("behind the event", Window(start, min(last, start + FIRST * turn)), _EARLY, 1.0),
-        ("end of the run", Window(max(start, last - LAST * turn), last), _LATE, 1.4),
-        ("before", Window(max(first.span.start, end - BEFORE * turn), end), "#111111", 2.0),
-    ]
-
-
 def _traces(result: Result, bearing: str) -> list[Trace]:
     journal = result.journal(bearing) * MICRO
     clearance = float(result.of("bearing_clearance", bearing)) * MICRO
@@ -75,10 +59,11 @@ def _traces(result: Result, bearing: str) -> list[Trace]:
         "fill": "toself", "fillcolor": "#F6F3EA", "name": "clearance",
     }  # fmt: skip
     traces: list[Trace] = [circle]
-    for name, window, colour, width in _spans(result):
-        chosen = np.flatnonzero(window.mask(result.time))
+    for part in orbit_parts(result.phases, result.turn):
+        colour, width = _LOOKS.get(part.name, (_LATE, 1.4))
+        chosen = np.flatnonzero(part.window.mask(result.time))
         chosen = chosen[:: max(1, -(-chosen.size // SAMPLES))]
-        look = {"line": {"color": colour, "width": width}, "mode": "lines", "name": name}
+        look = {"line": {"color": colour, "width": width}, "mode": "lines", "name": part.name}
         traces.append({"type": "scatter", **look, **_points(journal[:, chosen])})
     touching = np.flatnonzero(result.touching(bearing))
     if touching.size:

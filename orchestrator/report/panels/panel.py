@@ -72,6 +72,47 @@ def rows(count: int, gap: float = 0.06) -> list[tuple[float, float]]:
     return [(1.0 - k * (height + gap) - height, 1.0 - k * (height + gap)) for k in range(count)]
 
 
+@dataclass(frozen=True)
+class Place:
+    """One of the axes that stand above one another: names of abscissa and ordinate, whether the topmost."""
+
+    x: str
+    y: str
+    first: bool
+
+    def trace(self, label: str) -> dict[str, Any]:
+        """What puts a line there; it is in the legend once."""
+        return {"xaxis": self.x, "yaxis": self.y, "showlegend": self.first, "legendgroup": label}
+
+
+def stacked(
+    shown: dict[str, Any], abscissa: str, ordinates: Sequence[str], gap: float = 0.06, **look: Any
+) -> list[Place]:
+    """Put axes above one another into a layout; they share the abscissa, which is named below the last.
+
+    Parameters
+    ----------
+    shown : dict
+        The layout.
+    abscissa, ordinates : str, sequence of str
+        Titles; as many axes as ordinates.
+    gap : float
+        Between them.
+    **look
+        Of the ordinates.
+    """
+    places = []
+    for k, (title, span) in enumerate(zip(ordinates, rows(len(ordinates), gap), strict=True)):
+        tail, below = str(k + 1) if k else "", k == len(ordinates) - 1
+        place = Place(f"x{tail}", f"y{tail}", k == 0)
+        shown[f"yaxis{tail}"] = axis(title, domain=span, anchor=place.x, **look)
+        shown[f"xaxis{tail}"] = axis(abscissa if below else "", anchor=place.y, showticklabels=below)
+        if k:
+            shown[f"xaxis{tail}"]["matches"] = "x"
+        places.append(place)
+    return places
+
+
 def event_lines(results: Sequence[Result]) -> dict[str, Any]:
     """Shapes and a note at each instant at which something happens."""
     found = {

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.report.encode import packed
-from orchestrator.report.panels.panel import CONTACT, Panel, axis, event_lines, layout, line, rows
+from orchestrator.report.panels.panel import CONTACT, Panel, Place, Trace, event_lines, layout, line, stacked
 from orchestrator.report.source import Result
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, STRESS, Quantity
 from orchestrator.results.signals.envelope import envelope
@@ -45,31 +45,13 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
         having = [result for result in results if bearing in result.bearings]
         touching = any(result.touching(bearing).any() for result in having)
         table = _ROWS if touching else _ROWS[:2]
-        traces, shown = [], layout(**event_lines(having), showlegend=False)
-        for k, ((label, quantity, read), span) in enumerate(zip(table, rows(len(table)), strict=True)):
-            values = [read(result, bearing) for result in having]
-            largest = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in values)
-            unit = quantity.fitting(largest).fitting(largest)
-            tail = str(k + 1) if k else ""
-            below = k == len(table) - 1
-            shown[f"yaxis{tail}"] = axis(f"{label} [{unit.unit}]", domain=span, anchor=f"x{tail}")
-            shown[f"xaxis{tail}"] = axis(
-                "time [s]" if below else "", anchor=f"y{tail}", showticklabels=below
-            ) | ({"matches": "x"} if k else {})
-            for result, series in zip(having, values, strict=True):
-                traces.append(
-                    line(
-                        result,
-                        result.name,
-                        xaxis=f"x{tail}",
-                        yaxis=f"y{tail}",
-                        showlegend=k == 0,
-                        legendgroup=result.name,
-                    )
-                    | _thinned(result.time, series * unit.factor, samples)
-                )
-            if quantity is GAP:
-                shown["shapes"] = [*shown["shapes"], _zero(tail)]
+        values = [[read(result, bearing) for result in having] for _, _, read in table]
+        units = [_fitting(quantity, own) for (_, quantity, _), own in zip(table, values, strict=True)]
+        shown = layout(**event_lines(having), showlegend=False)
+        titles = [f"{label} [{unit.unit}]" for (label, _, _), unit in zip(table, units, strict=True)]
+        places = stacked(shown, "time [s]", titles)
+        shown["shapes"] = [*shown["shapes"], _zero(places[1])]
+        traces = _curves(having, places, values, units, samples)
         yield Panel(
             "series", f"{bearing}: force, least gap, contact", traces, shown, bearing, 170 * len(table) + 60
         )
@@ -77,30 +59,38 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
 
 def shaft_series(results: Sequence[Result]) -> Iterator[Panel]:
     """The largest amplitude and the largest normal stress along the shaft."""
-    traces, shown = [], layout(**event_lines(results), showlegend=False)
     samples = max(300, 2 * SAMPLES // len(results))
-    table = (("vibration_amplitude_max", AMPLITUDE), ("normal_stress_max", STRESS))
-    for k, ((name, quantity), span) in enumerate(zip(table, rows(2), strict=True)):
-        tail = str(k + 1) if k else ""
-        label = f"{quantity.label.split()[-1]} [{quantity.unit}]"
-        shown[f"yaxis{tail}"] = axis(label, domain=span, anchor=f"x{tail}", rangemode="tozero")
-        shown[f"xaxis{tail}"] = axis("time [s]" if k else "", anchor=f"y{tail}", showticklabels=bool(k)) | (
-            {"matches": "x"} if k else {}
-        )
-        for result in results:
-            values = np.asarray(result.record[name].values, dtype=float) * quantity.factor
-            start = line(
-                result,
-                result.name,
-                xaxis=f"x{tail}",
-                yaxis=f"y{tail}",
-                showlegend=k == 0,
-                legendgroup=result.name,
-            )
-            traces.append(start | _thinned(result.time, values, samples))
+    table = {"vibration_amplitude_max": AMPLITUDE, "normal_stress_max": STRESS}
+    shown = layout(**event_lines(results), showlegend=False)
+    titles = [f"{quantity.label.split()[-1]} [{quantity.unit}]" for quantity in table.values()]
+    places = stacked(shown, "time [s]", titles, rangemode="tozero")
+    values = [[np.asarray(r.record[name].values, dtype=float) for r in results] for name in table]
+    traces = _curves(results, places, values, list(table.values()), samples)
     yield Panel(
         "shaft", "Largest vibration amplitude and normal stress along the shaft", traces, shown, height=380
     )
+
+
+def _fitting(quantity: Quantity, values: Sequence[Floats]) -> Quantity:
+    """The quantity in a unit in which the largest value can be read."""
+    largest = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in values)
+    return quantity.fitting(largest).fitting(largest)
+
+
+def _curves(
+    results: Sequence[Result],
+    places: Sequence[Place],
+    values: Sequence[Sequence[Floats]],
+    units: Sequence[Quantity],
+    samples: int,
+) -> list[Trace]:
+    """A line of each result in each of the axes."""
+    return [
+        line(result, result.name, **place.trace(result.name))
+        | _thinned(result.time, series * unit.factor, samples)
+        for place, own, unit in zip(places, values, units, strict=True)
+        for result, series in zip(results, own, strict=True)
+    ]
 
 
 def _thinned(time: Floats, values: Floats, samples: int) -> dict[str, object]:
@@ -108,7 +98,7 @@ def _thinned(time: Floats, values: Floats, samples: int) -> dict[str, object]:
     return {"x": packed(time[kept]), "y": packed(values[kept])}
 
 
-def _zero(tail: str) -> dict[str, object]:
+def _zero(place: Place) -> dict[str, object]:
     """The line below which asperities are flattened."""
     look = {"color": CONTACT, "width": 1}
     return {
@@ -118,6 +108,6 @@ def _zero(tail: str) -> dict[str, object]:
         "x1": 1,
         "y0": 0,
         "y1": 0,
-        "yref": f"y{tail}",
+        "yref": place.y,
         "line": look,
     }

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from orchestrator.report.encode import packed
-from orchestrator.report.panels.panel import EVENT, Panel, Trace, axis, layout, line, rows
+from orchestrator.report.panels.panel import EVENT, Panel, Place, Trace, axis, layout, line, stacked
 from orchestrator.report.source import Result
-from orchestrator.results.signals.orders import NAMED, probe_signals
-from orchestrator.results.signals.spectrum import Spectrum, spectrum, waterfall
-from orchestrator.results.verdicts.judge import own_limits
-from orchestrator.results.windows import Phase, Window
+from orchestrator.results.journals import (
+    FLOOR,
+    HIGHEST,
+    HIGHEST_OVER_TIME,
+    probe_spectrum,
+    probe_waterfall,
+    probes_of,
+    steady_window,
+)
+from orchestrator.results.signals.orders import NAMED
+from orchestrator.results.signals.spectrum import Spectrum
 
-HIGHEST = 6.0
-"""Order of the speed up to which spectra are drawn."""
-LENGTH, SLICES = 8.0, 80
-"""Revolutions of a slice of a waterfall, and how many slices."""
-STEADY = 20.0
-"""Revolutions before an event of which the spectrum is made."""
-FLOOR = 1e-3
+MICRO = 1e6
+SMALLEST = FLOOR * MICRO
 """Smallest amplitude drawn [µm]."""
-DEFAULT_PROBES = (math.pi / 4.0, 3.0 * math.pi / 4.0)
 
 
 def spectra(results: Sequence[Result]) -> Iterator[Panel]:
@@ -32,8 +34,7 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
     names = dict.fromkeys(name for result in results for name in result.bearings)
     for bearing in names:
         having = [result for result in results if bearing in result.bearings]
-        angles = probes_of(having[0])
-        spans = rows(len(angles), 0.09)
+        angles = probes_of(having[0].record)
         traces: list[Trace] = []
         shown = layout(
             showlegend=True,
@@ -41,18 +42,11 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
             margin={"l": 62, "r": 14, "t": 46, "b": 44},
             **order_lines(having[0], HIGHEST),
         )
-        for k, (angle, span) in enumerate(zip(angles, spans, strict=True)):
-            tail = str(k + 1) if k else ""
-            below = k == len(angles) - 1
-            title = f"{math.degrees(angle):.0f}° [µm]"
-            shown[f"yaxis{tail}"] = axis(
-                title, domain=span, anchor=f"x{tail}", type="log", exponentformat="power"
-            )
-            shown[f"xaxis{tail}"] = axis(
-                "frequency [Hz]" if below else "", anchor=f"y{tail}", showticklabels=below
-            ) | ({"matches": "x"} if k else {})
+        titles = [f"{math.degrees(angle):.0f}° [µm]" for angle in angles]
+        places = stacked(shown, "frequency [Hz]", titles, gap=0.09, type="log", exponentformat="power")
+        for angle, place in zip(angles, places, strict=True):
             for result in having:
-                traces += _lines(result, bearing, angle, tail, several=len(results) > 1)
+                traces += _lines(result, bearing, angle, place, several=len(results) > 1)
         yield Panel("spectra", f"{bearing}: spectrum of the journal's motion", traces, shown, bearing, 420)
 
 
@@ -64,21 +58,15 @@ def waterfalls(results: Sequence[Result]) -> Iterator[Panel]:
         drawn = {name: (r, w) for name, (r, w) in found.items() if w is not None}
         if not drawn:
             continue
-        top = max(float(np.log10(np.maximum(w.amplitude, FLOOR)).max()) for _, w in drawn.values())
+        top = max(float(np.log10(np.maximum(w.amplitude, SMALLEST)).max()) for _, w in drawn.values())
         for name, (result, fall) in drawn.items():
             title = f"{bearing}: waterfall" + (f", {name}" if len(results) > 1 else "")
             yield _waterfall_panel(result, fall, bearing, title, top)
 
 
-def probes_of(result: Result) -> tuple[float, ...]:
-    """Angles of the probes in rad."""
-    limit = own_limits(result.record).shaft_vibration
-    return DEFAULT_PROBES if limit is None else limit.probes
-
-
 def order_lines(result: Result, highest: float) -> dict[str, Any]:
     """Lines at the named orders of the speed."""
-    turn = abs(result.speed) / (2.0 * math.pi)
+    turn = 1.0 / result.turn
     look = {"color": EVENT, "width": 1, "dash": "dot"}
     shapes = [
         {"type": "line", "x0": k * turn, "x1": k * turn, "y0": 0, "y1": 1, "yref": "paper", "line": look}
@@ -94,11 +82,12 @@ def order_lines(result: Result, highest: float) -> dict[str, Any]:
     return {"shapes": shapes, "annotations": notes}
 
 
-def _lines(result: Result, bearing: str, angle: float, tail: str, *, several: bool) -> Iterator[Trace]:
+def _lines(result: Result, bearing: str, angle: float, place: Place, *, several: bool) -> Iterator[Trace]:
     shown = {"before": ("before", 1.0, "dot"), "steady": ("lasting", 1.3, "solid")}
     for phase in result.phases:
         name, width, dash = shown.get(phase.name, (phase.name, 1.5, "solid"))
-        found = _spectrum(result, bearing, angle, _window(result, phase))
+        window = steady_window(phase, result.turn)
+        found = probe_spectrum(result.time, result.journal(bearing), angle, window, result.turn)
         if found is None:
             continue
         label = f"{result.name}, {name}" if several else name
@@ -108,50 +97,20 @@ def _lines(result: Result, bearing: str, angle: float, tail: str, *, several: bo
             result,
             label,
             line=look,
-            xaxis=f"x{tail}",
-            yaxis=f"y{tail}",
-            showlegend=not tail,
-            legendgroup=label,
-        ) | {"x": packed(found.frequency, 1e-3), "y": packed_log(found.amplitude)}
-
-
-def _window(result: Result, phase: Phase) -> Window:
-    """Where the motion is steady: before an event the last revolutions, or else where means are taken."""
-    if phase.name != "before":
-        return phase.mean
-    turn = 2.0 * math.pi / abs(result.speed)
-    return Window(max(phase.span.start, phase.span.end - STEADY * turn), phase.span.end)
+            **place.trace(label),
+        ) | {"x": packed(found.frequency, 1e-3), "y": packed_log(found.amplitude * MICRO)}
 
 
 def packed_log(values: Any) -> dict[str, Any]:
     """Positive numbers over many decades."""
-    return packed(np.log10(np.maximum(values, FLOOR)), 1e-4) | {"power": True}
-
-
-def _spectrum(result: Result, bearing: str, angle: float, window: Window) -> Spectrum | None:
-    """Of as many whole pairs of revolutions as the window holds, so that half orders lie on a line."""
-    turn, time = 2.0 * math.pi / abs(result.speed), result.time
-    pairs = math.floor(window.length / (2.0 * turn) + 1e-6)
-    start = window.end - 2.0 * turn * max(pairs, 1)
-    step = (time[-1] - time[0]) / (time.size - 1)
-    chosen = (time > max(start, time[0]) - 0.5 * step) & (time < window.end - 0.5 * step)
-    if np.count_nonzero(chosen) < 8:
-        return None
-    signal = probe_signals(result.journal(bearing)[:, chosen], [angle])[0]
-    found = spectrum(time[chosen], signal * 1e6)
-    inside = (found.frequency > 0.0) & (found.frequency <= HIGHEST / turn)
-    return Spectrum(found.frequency[inside], found.amplitude[inside])
+    return packed(np.log10(np.maximum(values, SMALLEST)), 1e-4) | {"power": True}
 
 
 def _waterfall(result: Result, bearing: str) -> Spectrum | None:
-    turn, time = 2.0 * math.pi / abs(result.speed), result.time
-    length = min(LENGTH, math.floor((time[-1] - time[0]) / turn / 2.0)) * turn
-    if length < 2.0 * turn:
-        return None
-    signal = probe_signals(result.journal(bearing), probes_of(result)[:1])[0]
-    found = waterfall(time, signal * 1e6, length, slices=SLICES)
-    inside = (found.frequency > 0.0) & (found.frequency <= 4.0 / turn)
-    return Spectrum(found.frequency[inside], found.amplitude[:, inside], found.time)
+    """In µm."""
+    angle = probes_of(result.record)[0]
+    found = probe_waterfall(result.time, result.journal(bearing), angle, result.turn)
+    return None if found is None else replace(found, amplitude=found.amplitude * MICRO)
 
 
 def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, top: float) -> Panel:
@@ -162,7 +121,7 @@ def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, t
         "type": "heatmap",
         "x": packed(fall.frequency, 1e-3),
         "y": packed(fall.time),
-        "z": packed(np.log10(np.maximum(fall.amplitude, FLOOR)), 2e-3),
+        "z": packed(np.log10(np.maximum(fall.amplitude, SMALLEST)), 2e-3),
         "zmin": bottom,
         "zmax": top,
         "colorscale": "Viridis",
@@ -174,7 +133,9 @@ def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, t
         },
         "hovertemplate": "%{x:.1f} Hz, %{y:.3f} s: 10^%{z:.2f} µm<extra></extra>",
     }  # fmt: skip
-    shown = layout(xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **order_lines(result, 4.0))
+    shown = layout(
+        xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **order_lines(result, HIGHEST_OVER_TIME)
+    )
     shown["shapes"] = [{**shape, "line": shape["line"] | {"color": "white"}} for shape in shown["shapes"]]
     shown["margin"] = shown["margin"] | {"t": 26}
     return Panel("waterfall", title, [heat], shown, bearing, 340)

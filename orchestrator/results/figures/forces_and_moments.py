@@ -28,6 +28,7 @@ def _curve(record: xr.Dataset, name: str, bearing: str) -> panels.Curve:
         style.colour_of(depth),
         style.run_name(record, bearing),
         extremes,
+        dash=style.dash_of(depth),
     )
 
 

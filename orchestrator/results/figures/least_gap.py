@@ -29,7 +29,7 @@ def _curves(record: xr.Dataset, bearing: str) -> list[panels.Curve]:
     curves = []
     if not np.array_equal(film, centre):
         least = statistics.interval_extreme(record, "centre_line_gap_min", bearing, centre)
-        curves.append(panels.Curve(time, centre, style.CENTRE_LINE, "centre line", least))
+        curves.append(panels.Curve(time, centre, style.CENTRE_LINE, "centre line", least, dash=":"))
     least = statistics.interval_extreme(record, "least_gap_min", bearing, film)
     label = f"whole film, {style.run_name(record, bearing)}"
     return [*curves, panels.Curve(time, film, style.colour_of(depth), label, least)]

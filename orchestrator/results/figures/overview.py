@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def overview(records: Sequence[xr.Dataset]) -> Figure:
+def overview(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure:
     """Draw force (left) and least gap (right) of every bearing over the whole time.
 
     Gaps are cut off at a multiple of those before the event: what matters happens near zero.
@@ -26,13 +26,15 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
     records : sequence of xarray.Dataset
         One run or several of the same scenario, drawn over one another.  All rows of a
         column share their scale, so that bearings compare.
+    bearing : str, optional
+        The bearing whose name is bold, by default the analysed bearing of the first record.
 
     Returns
     -------
     matplotlib.figure.Figure
     """
     names = [str(name) for name in records[0]["bearing"].values]
-    analysed = statistics.analysed_bearing(records[0])
+    analysed = bearing or statistics.analysed_bearing(records[0])
     view = panels.whole_run(records)
     forces = quantities.FORCE.fitting(max(float(abs(record["force"]).max()) for record in records))
     figure = style.new_figure(
@@ -45,8 +47,8 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
     for row, name in enumerate(names):
         for record in records:
             time = np.asarray(record["time"].values, dtype=float)
-            colour = style.colour_of(style.depth_at(record, name))
-            label = style.depth_name(style.depth_at(record, name))
+            depth = style.depth_at(record, name)
+            colour, label, dash = style.colour_of(depth), style.depth_name(depth), style.dash_of(depth)
             force = statistics.magnitude(record, "force", name)
             gap = statistics.series(record, "least_gap", name)
             for axes, samples, extreme, quantity in (
@@ -54,7 +56,7 @@ def overview(records: Sequence[xr.Dataset]) -> Figure:
                 (grid[row, 1], gap, "least_gap_min", quantities.GAP),
             ):
                 extremes = statistics.interval_extreme(record, extreme, name, samples)
-                curve = panels.Curve(time, samples, colour, label, extremes, width=0.5)
+                curve = panels.Curve(time, samples, colour, label, extremes, width=0.5, dash=dash)
                 panels.draw_curve(axes, view, curve, quantity)
             draw_contact(grid[row, 1], view, record, name, height=0.08)
         for axes in grid[row]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,12 @@ if TYPE_CHECKING:
 
 BEFORE_REVOLUTIONS = 2.0
 AFTER_REVOLUTIONS = 6.0
+_PAPER: dict[str, Any] = {
+    "boxstyle": "round,pad=0.15",
+    "facecolor": "white",
+    "edgecolor": "none",
+    "alpha": 0.8,
+}
 _LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
 
 
@@ -71,6 +77,8 @@ class Curve:
         Extremes in the interval that each sample closes; the band up to them is filled.
     width : float
         Line width in points.
+    dash : str or tuple
+        Line style of matplotlib, so that lines differ in grey print.
     """
 
     time: NDArray[np.float64]
@@ -79,6 +87,7 @@ class Curve:
     label: str
     extremes: NDArray[np.float64] | None = None
     width: float = 0.7
+    dash: Any = "-"
 
 
 def whole_run(records: Sequence[xr.Dataset]) -> View:
@@ -104,9 +113,8 @@ def close_up(records: Sequence[xr.Dataset]) -> View:
 def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quantity) -> None:
     """Draw the samples as a line and fill the way to the interval extremes."""
     time = view.shown_all(curve.time)
-    axes.plot(
-        time, curve.samples * quantity.factor, color=curve.colour, linewidth=curve.width, label=curve.label
-    )
+    look: dict[str, Any] = {"color": curve.colour, "linestyle": curve.dash, "linewidth": curve.width}
+    axes.plot(time, curve.samples * quantity.factor, **look, label=curve.label)
     if curve.extremes is not None:
         axes.fill_between(
             time,
@@ -188,7 +196,7 @@ def mark(
         ha="right" if left else "left",
         va="top" if below else "bottom",
         fontsize=style.FONT - 1,
-        bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
+        bbox=_PAPER,
         zorder=6,
     )
 
@@ -225,6 +233,11 @@ def scale_panels(
         high, above = ceiling, 0.0
     if high > low:
         grid[0].set_ylim(low - below * (high - low), high + above * (high - low))
+    for axes, largest in zip(grid, (axes.dataLim.ymax for axes in grid), strict=True):
+        if ceiling is not None and largest > high and np.isfinite(largest):
+            text = f"▲ cut off, up to {largest:.3g}"
+            place: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top"}
+            axes.annotate(text, (0.995, 0.98), **place, fontsize=style.FONT - 2, zorder=6, bbox=_PAPER)
 
 
 def _legend_columns(figure: Figure, labels: Sequence[str]) -> int:

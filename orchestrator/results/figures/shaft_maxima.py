@@ -54,9 +54,9 @@ def _shaft_maximum(
     for row, record in enumerate(records):
         time = np.asarray(record["time"].values, dtype=float)
         samples = np.asarray(record[f"{name}_max"].values, dtype=float)
-        curve = panels.Curve(
-            time, samples, style.colour_of(style.depth_at(record)), style.run_name(record), width=0.9
-        )
+        depth = style.depth_at(record)
+        look = style.colour_of(depth), style.run_name(record)
+        curve = panels.Curve(time, samples, *look, width=0.9, dash=style.dash_of(depth))
         left, right = grid[row]
         for axes, view in ((left, whole), (right, near)):
             panels.draw_curve(axes, view, curve, quantity)

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 _FREE = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 """For depths that bring no colour of their own, in turn."""
+_DASHES: tuple[str | tuple[int, tuple[float, ...]], ...] = (
+    "-", (0, (5, 1.2)), (0, (4, 1, 1, 1)), (0, (1.2, 1)), (0, (7, 1, 1, 1, 1, 1)),
+)  # fmt: skip
+"""Line styles of the depths in their order."""
 OTHER_COLOUR = "#7B4F9E"
 CENTRE_LINE = "#4D4D4D"
 EVENT = "#000000"
@@ -66,6 +70,12 @@ def colour_of(depth: str) -> str:
     own = {each.colour for each in known}
     free = cycle(colour for colour in _FREE if colour not in own)
     return {each.name: each.colour or next(free) for each in known}.get(depth, OTHER_COLOUR)
+
+
+def dash_of(depth: str) -> str | tuple[int, tuple[float, ...]]:
+    """The line style of a modelling depth, which tells it from others in grey print."""
+    known = [each.name for each in depths.depths()]
+    return _DASHES[known.index(depth) % len(_DASHES)] if depth in known else "-"
 
 
 def reduction_look(name: str) -> tuple[str, str, float]:

@@ -11,11 +11,15 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from orchestrator.results.figures.deformed_train import deformed_train
+from orchestrator.results.figures.film import film_maps
 from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
+from orchestrator.results.figures.orbits import orbits
 from orchestrator.results.figures.overview import overview
 from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
+from orchestrator.results.figures.spectra import spectra, waterfall
 from orchestrator.results.figures.supports import has_supports, supports
+from orchestrator.results.verdicts.judge import worst_bearing
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,7 +49,7 @@ def write_figures(
     train : Train, optional
         For the drawing of the shaft.
     bearing : str, optional
-        The analysed bearing; by default chosen by `orchestrator.results.statistics.analysed_bearing`.
+        The bearing that is shown; by default that with the worst verdict.
     formats : sequence of str
         File types out of `FORMATS`.
 
@@ -54,27 +58,40 @@ def write_figures(
     list of Path
         The files written, in the order of the paper's figures.
     """
-    drawings: dict[str, Callable[[], Figure]] = {
-        "deformed-train": lambda: deformed_train(records, train),
-        "forces-and-moments": lambda: forces_and_moments(records, bearing),
-        "least-gap": lambda: least_gap(records, bearing),
-        "vibration-amplitude": lambda: vibration_amplitude(records),
-        "normal-stress": lambda: normal_stress(records),
-        "all-bearings": lambda: overview(records),
-    }
-    if has_supports(records):
-        drawings["housing-and-foundation"] = lambda: supports(records, bearing)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     with own_settings():
-        for name, draw in drawings.items():
-            figure = draw()
+        for name, figure in figures_of(records, train, bearing):
             FigureCanvasAgg(figure)
             for kind in formats:
                 path = folder / f"{name}.{kind}"
                 figure.savefig(path)
                 written.append(path)
     return written
+
+
+def figures_of(
+    records: Sequence[xr.Dataset], train: Train | None = None, bearing: str | None = None
+) -> Iterator[tuple[str, Figure]]:
+    """Name and figure of all that a run gives; otherwise see `write_figures`."""
+    bearing = bearing or worst_bearing(records)
+    drawings: dict[str, Callable[[], Figure | None]] = {
+        "deformed-train": lambda: deformed_train(records, train),
+        "forces-and-moments": lambda: forces_and_moments(records, bearing),
+        "least-gap": lambda: least_gap(records, bearing),
+        "vibration-amplitude": lambda: vibration_amplitude(records),
+        "normal-stress": lambda: normal_stress(records),
+        "all-bearings": lambda: overview(records, bearing),
+        "orbits": lambda: orbits(records, bearing),
+        "spectra": lambda: spectra(records, bearing),
+        "waterfall": lambda: waterfall(records, bearing),
+        "film": lambda: film_maps(records, bearing),
+        "housing-and-foundation": lambda: supports(records, bearing) if has_supports(records) else None,
+    }
+    for name, draw in drawings.items():
+        figure = draw()
+        if figure is not None:
+            yield name, figure
 
 
 @contextmanager

@@ -43,6 +43,58 @@ def order_amplitudes(time: ArrayLike, values: ArrayLike, speed: float, orders: S
     return np.asarray((real + 1j * imaginary).reshape(len(orders), *x.shape[1:]))
 
 
+def tracked_order(
+    time: ArrayLike,
+    values: ArrayLike,
+    speed: ArrayLike,
+    *,
+    order: float = 1.0,
+    turns: float = 4.0,
+    points: int = 400,
+) -> tuple[Floats, Complex]:
+    """Amplitude of an order while the speed changes: least squares over the turns around each instant.
+
+    In each window a mean that changes evenly and the order's cosine and sine of the angle turned through,
+    ``x = a + b t + Re A exp(i order theta)``, theta the integral of the speed.
+
+    Parameters
+    ----------
+    time, values, speed : array_like, shape (n,)
+        In s, of the signal, in rad/s.
+    order : float
+        Of the speed.
+    turns : float
+        Revolutions of a window.
+    points : int
+        Most instants; evenly spread over the angle.
+
+    Returns
+    -------
+    ndarray, shape (points,)
+        Instants in s.
+    ndarray, shape (points,), complex
+        ``A``; its phase counts from theta = 0 at the first sample. Not-a-number at standstill.
+    """
+    t, x, w = (np.asarray(a, dtype=float) for a in (time, values, speed))
+    theta = np.concatenate([[0.0], np.cumsum(0.5 * (w[1:] + w[:-1]) * np.diff(t))])
+    half = np.pi * turns
+    if theta[-1] <= 2.0 * half:
+        return np.empty(0), np.empty(0, dtype=complex)
+    middles = np.linspace(half, theta[-1] - half, min(points, max(2, int(theta[-1] / half))))
+    at = np.interp(middles, theta, t)
+    found = np.full(middles.size, np.nan + 0j)
+    for k, middle in enumerate(middles):
+        i, j = np.searchsorted(theta, (middle - half, middle + half))
+        if j - i < 8:
+            continue
+        turn = np.exp(1j * order * theta[i:j])
+        own = t[i:j] - at[k]
+        columns = np.column_stack([np.ones(j - i), own, turn.real, -turn.imag])
+        a = np.linalg.lstsq(columns, x[i:j], rcond=None)[0]
+        found[k] = a[2] + 1j * a[3]
+    return at, found
+
+
 @dataclass(frozen=True)
 class Whirl:
     """An elliptic orbit ``x + i y = forward exp(i w t) + backward exp(-i w t)``.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -23,9 +23,14 @@ from orchestrator.results.quantities import (
     VIBRATION,
 )
 from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
-from orchestrator.results.statistics import bearing_statistics, contact_threshold, shaft_statistics
+from orchestrator.results.statistics import (
+    analysed_bearing,
+    bearing_statistics,
+    contact_threshold,
+    shaft_statistics,
+)
 from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
-from orchestrator.results.verdicts.verdict import Grade, Verdict, held
+from orchestrator.results.verdicts.verdict import Grade, Verdict, held, worst
 from orchestrator.results.windows import Phase, phases
 
 if TYPE_CHECKING:
@@ -179,3 +184,15 @@ def _stress(record: xr.Dataset, found: tuple[Phase, ...], limits: Limits) -> Ite
         yield held(
             limit, "normal stress", place, STRESS, row.stress_max, limit.largest, note=note, instant=when
         )
+
+
+def worst_bearing(records: Sequence[xr.Dataset]) -> str:
+    """The bearing to be looked at: that which runs name, that with the worst verdict, the most loaded one."""
+    named = records[0].attrs.get("analysed_bearing")
+    if not named:
+        known = [record for record in records if "bearing_diameter" in record]
+        judged = (v for record in known for v in judge(record, own_limits(record)) if v.bearing)
+        found = [v for v in worst(judged) if v.grade is Grade.BEYOND]
+        if found:
+            return found[0].bearing
+    return analysed_bearing(records[0], named)

@@ -14,9 +14,11 @@ from typer.testing import CliRunner
 from orchestrator.cli.main import app
 from orchestrator.report import library, write
 from orchestrator.report.encode import packed, to_json, unpacked
+from orchestrator.report.panels.bode import bode
 from orchestrator.report.source import ReportError, load_results, results_of, shown_bearing
-from orchestrator.report.write import report_text, write_report
+from orchestrator.report.write import report_text, write_print, write_report
 from orchestrator.results.record_files import write_record
+from orchestrator.results.worst_film import worst_films
 from tests.faults import fault
 from tests.orchestrator.results import synthetic_record
 
@@ -86,15 +88,41 @@ def test_nothing_is_fetched(pages):
         ]
 
 
-def test_every_bearing_has_its_orbit_and_its_figures(pages):
+def test_every_bearing_has_its_orbit_and_its_figures(pages, records):
     for page, results in zip(pages, (1, 2), strict=True):
         _, data, found = read(page)
         boxes = [a for tag, a in found.tags if tag == "div" and a.get("class") == "panel"]
         assert set(data) == {a["id"] for a in boxes}
         chosen = [a["data-bearing"] for a in boxes if "data-bearing" in a]
-        # series and spectra of all results in one figure, a waterfall of each
-        assert sorted(chosen) == sorted(NAMES * (2 + results))
+        films = sum(len(list(worst_films(r, name))) for r in records[:results] for name in NAMES)
+        # series and spectra of all results in one figure, a waterfall of each, its film at the worst instants
+        assert len(chosen) == len(NAMES) * (2 + results) + films and set(chosen) == set(NAMES)
+        assert films >= 2 * results * len(NAMES)
         assert len(boxes) - len(chosen) == results * len(NAMES) + 1 + results  # orbits, shaft, shaft in space
+
+
+def test_a_bode_plot_appears_where_the_speed_changes(records):
+    """1X of a journal whose amplitude grows with the speed, and lags by what it lags."""
+    record = records[0].isel(bearing=[0]).copy()
+    time = record["time"].values
+    speed = 100.0 + 60.0 * time
+    theta = 100.0 * time + 30.0 * time**2
+    wave = 1e-6 * speed[:, None] * np.column_stack([np.cos(theta - 0.5), np.sin(theta - 0.5)])
+    record["displacement"] = (("time", "bearing", "axis"), wave[:, None])
+    (result,) = results_of([record.assign(rotor_speed=("time", speed))])
+    (panel,) = bode([result])
+    amplitude, phase = (unpacked(trace["y"]) for trace in panel.traces)
+    minute = unpacked(panel.traces[0]["x"])
+    np.testing.assert_allclose(amplitude, minute * np.pi / 30.0, rtol=2e-3)
+    np.testing.assert_allclose(phase, np.degrees(-0.5 - np.pi / 4), atol=0.3)
+    assert not list(bode(results_of([records[0]])))
+
+
+def test_the_same_can_be_printed(records, tmp_path):
+    short = [record.isel(bearing=[0, 1], time=slice(900, 1200)) for record in records]
+    content = write_print(results_of(short), tmp_path / "report.pdf").read_bytes()
+    assert content.startswith(b"%PDF") and content.count(b"/Type /Page\n") >= 2 + 10
+    assert content == write_print(results_of(short), tmp_path / "again.pdf").read_bytes()
 
 
 def test_orbits_of_a_bearing_have_the_same_axes_in_all_results(pages):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import itertools
+import json
 
 import numpy as np
 import xarray as xr
 
+from bearing_fmu.parameters import BearingParameters
 from orchestrator.scenario.events import BladeLoss, to_json
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
 
@@ -18,6 +20,9 @@ NAMES = (
 )
 Z = (1.5, 8.5, 11.5, 20.5, 22.5, 31.5, 33.5, 42.5, 46.0, 61.0, 67.0)
 CLEARANCE = 8.6e-4
+FILM = BearingParameters(
+    0.8, 0.64, CLEARANCE, 0.0242, roughness=3e-6, contact_modulus=1e9, columns=24, rows=4
+)
 FORCE = np.array([0.5, 0.6, 1.5, 1.75, 1.8, 1.7, 1.75, 1.5, 1.6, 1.4, 0.2]) * 1e6
 
 
@@ -110,6 +115,12 @@ def record(
     variables = {
         "displacement": ((*scalar, "axis"), journal),
         "offset": (("bearing", "axis"), np.zeros((len(NAMES), 2))),
+        "tilt": ((*scalar, "axis"), np.zeros_like(journal)),
+        "offset_tilt": (("bearing", "axis"), np.zeros((len(NAMES), 2))),
+        "velocity": ((*scalar, "axis"), np.gradient(journal, t, axis=0)),
+        "tilt_rate": ((*scalar, "axis"), np.zeros_like(journal)),
+        "rotor_speed": ((), SPEED),
+        "bearing_parameters": (("bearing",), [json.dumps(FILM.values())] * len(NAMES)),
         **{
             f"bearing_{name}": (("bearing",), np.full(len(NAMES), value))
             for name, (value, _) in seats.items()

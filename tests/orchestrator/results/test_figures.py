@@ -11,12 +11,16 @@ from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
 from orchestrator.results.figures.deformation import dynamic_deflection, worst_instant
 from orchestrator.results.figures.deformed_train import deformed_train
+from orchestrator.results.figures.film import film_maps, steps
 from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
+from orchestrator.results.figures.orbits import orbits
 from orchestrator.results.figures.overview import overview
 from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
+from orchestrator.results.figures.spectra import spectra, waterfall
 from orchestrator.results.figures.spread import spread
 from orchestrator.results.figures.write import write_figures
+from orchestrator.results.verdicts.judge import worst_bearing
 from tests.orchestrator.results import synthetic_record
 
 BEARING = "LP2-front"
@@ -248,9 +252,81 @@ def test_mixed_depths_are_named(record):
     assert style.colour_of(style.depth_at(mixed)) == style.OTHER_COLOUR
 
 
+def test_orbits_of_all_bearings_lie_in_their_clearance(record):
+    grid = panel_axes(orbits([record]))
+    assert [axes.get_title().partition("\n")[0] for axes in grid[:11]] == list(synthetic_record.NAMES)
+    axes = grid[synthetic_record.NAMES.index(BEARING)]
+    motion = (record["displacement"] - record["offset"]).sel(bearing=BEARING).values * 1e6
+    before = line(axes, "before")
+    span = (record["time"].values >= 0.92 - 1e-9) & (record["time"].values < 1.0 + 1e-9)
+    drawn = np.column_stack(before.get_data())
+    assert abs(len(drawn) - span.sum()) <= 1
+    assert {tuple(p) for p in drawn.round(6)} <= {tuple(p) for p in motion.round(6)}
+    circle = np.hypot(*line(axes, "radial clearance").get_data())
+    np.testing.assert_allclose(circle, synthetic_record.CLEARANCE * 1e6)
+    styles = {found.get_label(): (found.get_color(), found.get_linestyle()) for found in axes.lines}
+    assert len(set(styles.values())) == len(styles)  # also in grey print
+
+
+def test_orbits_of_several_runs_have_one_scale(records):
+    grid = panel_axes(orbits(records, BEARING))
+    assert len({axes.get_xlim() for axes in grid[:3]}) == 1
+    assert [axes.get_title()[:4] for axes in grid[:3]] == ["V1: ", "V2: ", "V3: "]
+
+
+def test_spectra_and_waterfall_read_the_unbalance(record):
+    axes = panel_axes(spectra([record], BEARING))[0]
+    before = line(axes, "before")
+    x = (record["displacement"] - record["offset"]).sel(bearing=BEARING).isel(time=slice(200, 1000))
+    signal = (x.values @ [np.sqrt(0.5), np.sqrt(0.5)]) * 1e6
+    at = int(np.argmin(abs(before.get_xdata() - 25.0)))
+    assert before.get_ydata()[at] == pytest.approx(np.ptp(signal) / 2, rel=1e-3)
+    assert {found.get_linestyle() for found in axes.lines if found.get_label() in ("before", "after")} == {
+        "--", "-",
+    }  # fmt: skip
+    (mesh,) = panel_axes(waterfall([record], BEARING))[0].collections
+    loudest = mesh.get_array().argmax() % mesh.get_array().shape[1]
+    assert loudest == pytest.approx(25.0 * 0.32 - 1, abs=0.1)  # lines 3.125 Hz apart from the first on
+
+
+def test_film_maps_show_the_worst_instants_in_one_scale(records):
+    figure = film_maps(records[:2], BEARING)
+    titles = [axes.get_title(loc="left") for axes in panel_axes(figure)]
+    gap = statistics.series(records[0], "least_gap", BEARING)
+    assert f"V1:  least gap: {gap.min() * 1e6:.1f} µm" in titles[0]
+    assert any("largest force" in title for title in titles)
+    assert film_maps([records[0].drop_vars("bearing_parameters")], BEARING) is None
+    foreign = records[0].assign(depth=("bearing", ["of-another-maker"] * 11))
+    assert film_maps([foreign], BEARING) is None
+
+
+@pytest.mark.parametrize("largest", [0.0, 3e5, 4.8e8])
+def test_steps_of_colours_cover_the_values(largest):
+    found = steps(largest, 0.004 * largest, 1e-6)
+    assert found[0] == 0.0 and found[-1] >= largest * 1e-6 and found == sorted(set(found))
+    assert len(found) <= 12
+
+
+def test_what_is_cut_off_is_marked(record):
+    leaping = record.copy()
+    leaping["least_gap"] = record["least_gap"] * xr.where(record["time"] > 1.0, 5.0, 1.0)
+    near = panel_axes(least_gap([leaping]))[1]
+    assert any(text.get_text().startswith("▲ cut off, up to") for text in near.texts)
+    assert not [text for text in panel_axes(least_gap([leaping]))[0].texts if "cut off" in text.get_text()]
+
+
+def test_depths_differ_in_grey_print():
+    assert len({style.dash_of(depth) for depth in DEPTHS}) == 3
+
+
+def test_the_worst_bearing_is_shown_unless_one_is_named(record):
+    assert worst_bearing([record]) == "LP2-front"
+    assert worst_bearing([record.assign_attrs(analysed_bearing="HP-front")]) == "HP-front"
+
+
 def test_writing_gives_every_figure_in_every_format(record, train, tmp_path):
     short = record.isel(time=slice(900, 1100))
     files = write_figures([short], tmp_path / "figures", train=train, formats=("png", "svg"))
-    assert len(files) == 12
+    assert len(files) == 20
     assert all(path.stat().st_size > 1000 for path in files)
     assert quantities.FORCE.unit == "MN"

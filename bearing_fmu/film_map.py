@@ -1,0 +1,187 @@
+"""The film of one bearing at one instant as a picture: pressure and gap over the unwrapped bearing.
+
+What a film leaves in its work space after an evaluation is read; nothing is solved anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearing_fmu import depths
+from bearing_fmu.film import Film
+from bearing_fmu.films.aligned.workspace import AlignedFilm
+from bearing_fmu.films.short.short import effective_state
+from bearing_fmu.films.tilted.layered import LayeredFilm
+from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.films.turbulence import ALONG
+from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.compiled import kernel
+from bearing_fmu.kernels.grid import COS, SIN
+from bearing_fmu.outputs import INPUTS, OUTPUTS
+from bearing_fmu.parameters import BearingParameters
+from fmus.port.bore import TURN
+from fmus.port.variable import Value
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FilmMap:
+    """Pressure and gap over an unwrapped bearing.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (m,)
+        From x towards y in rad, 0 to 2 pi.
+    z : ndarray, shape (n,)
+        From the mid-plane in m.
+    pressure : ndarray, shape (n, m)
+        Of the film over the cavity's in Pa; 0 where it is ruptured.
+    gap : ndarray, shape (n, m)
+        Between journal and rigid bore in m, as the film sees it: without tilts where it knows none; negative
+        where asperities, or a soft layer, give way. Not-a-number in grooves.
+    """
+
+    angle: Floats
+    z: Floats
+    pressure: Floats
+    gap: Floats
+
+
+def film_map(
+    depth: str,
+    values: Mapping[str, Value],
+    q: ArrayLike,
+    v: ArrayLike,
+    speed: float,
+    *,
+    columns: int = 121,
+    rows: int = 25,
+) -> FilmMap | None:
+    """Evaluate a film and draw it.
+
+    Parameters
+    ----------
+    depth : str
+        Name of a depth.
+    values : mapping
+        Parameters of its unit by name.
+    q, v : array_like, shape (4,)
+        Position of the journal relative to its bore, x, y in m and tilts in rad, and their rates.
+    speed : float
+        Rotor speed in rad/s.
+    columns, rows : int
+        Points around the circumference and along the axis.
+
+    Returns
+    -------
+    FilmMap or None
+        None for a depth that solves no film, or whose film cannot be looked into.
+
+    Raises
+    ------
+    FilmFailure
+        The film has no answer at this state.
+    """
+    if depth not in depths.films():
+        return None
+    film = depths.find(depth).make(values)
+    if not isinstance(film, Film):
+        return None
+    inputs = np.zeros(INPUTS)
+    inputs[:4], inputs[4:8], inputs[16] = np.asarray(q) + film.offset, v, speed
+    angle = np.linspace(0.0, TURN, columns)
+    place = np.linspace(-1.0, 1.0, rows)
+    space, data = film.take()
+    try:
+        status = film.solver.kernel(inputs, film.offset, np.empty(OUTPUTS), *data)
+        if status:
+            raise film.failure(status, inputs, film.offset)
+        constants, _, _, solved, work = data
+        pressure = _pressure(solved, constants[0], work[4:8], work[8:12], speed, angle, place)
+    finally:
+        film.bring_back(space)
+    if pressure is None:
+        return None
+    scales, p = constants[0], film.parameters
+    absolute = np.maximum(pressure + scales["ambient"], 0.0) * scales["pressure"]
+    seen = np.array(q, dtype=float)
+    if not film.solver.tilts:
+        seen[2:] = 0.0
+    return FilmMap(angle, place * 0.5 * p.width, absolute, _gap(p, seen, angle, place))
+
+
+def _pressure(
+    film: Any, scales: Any, q: Floats, v: Floats, speed: float, angle: Floats, z: Floats
+) -> Floats | None:
+    """Pressure over the ambient one, in units of the film's, shape (z, angle)."""
+    if isinstance(film, LayeredFilm):
+        film = film.film
+    if isinstance(film, TiltedFilm):
+        n, m = film.face.shape[1], film.circle.shape[2]
+        return _between(film.rings[0], film.pressures[0, :n, :m], angle, z)
+    if isinstance(film, AlignedFilm):
+        return _between(film.rings[0], _both_halves(film), angle, z)
+    if isinstance(film, np.ndarray):
+        return _short(scales, q, v, speed, angle, z)
+    return None
+
+
+def _between(ring: Floats, nodal: Floats, angle: Floats, z: Floats) -> Floats:
+    """Between the nodes: along the axis the film's own functions, around the circumference straight."""
+    along = axial_basis(nodal.shape[0]).interpolation(z[1:-1]) @ nodal
+    where = np.arctan2(ring[SIN], ring[COS])
+    rows = [np.interp(angle, where, row, period=TURN) for row in along]
+    return np.vstack([np.zeros(angle.size), *rows, np.zeros(angle.size)])
+
+
+def _both_halves(film: AlignedFilm) -> Floats:
+    """Nodal pressures of all rows; the film holds those with z >= 0."""
+    half = film.shapes @ film.modal[0].T
+    rows = 2 * half.shape[0] - int(np.count_nonzero(film.weights) and _has_middle(film))
+    nodes = axial_basis(rows).nodes[:rows]
+    upper = np.flatnonzero(nodes > -1e-12)
+    nearest = [int(np.argmin(abs(nodes[upper] - abs(node)))) for node in nodes]
+    return np.asarray(half[nearest])
+
+
+def _has_middle(film: AlignedFilm) -> bool:
+    """Whether a row lies at z = 0, where the modes are those of the centre."""
+    return bool(np.isclose(film.shapes, film.centre, rtol=1e-9).all(axis=1).any())
+
+
+def _short(scales: Any, q: Floats, v: Floats, speed: float, angle: Floats, z: Floats) -> Floats:
+    """The short bearing's closed form, see `bearing_fmu.films.short.short`."""
+    state, jacobian = np.zeros(4), np.zeros((4, 4))
+    _effective(q, v, float(scales["sigma"]), state, jacobian)
+    x, y = state[:2]
+    a, b = speed * y + 2.0 * state[2], speed * x - 2.0 * state[3]
+    gap = 1.0 - x * np.cos(angle) - y * np.sin(angle)
+    drag = 1.0 + ALONG[0] / 12.0 * (float(scales["reynolds"]) * abs(speed) * gap) ** ALONG[1]
+    wedge = (a * np.cos(angle) - b * np.sin(angle)) / gap**3 * drag
+    return np.asarray(0.5 * float(scales["slenderness"]) * np.outer(1.0 - z * z, wedge))
+
+
+@kernel
+def _effective(q: Floats, v: Floats, sigma: float, state: Floats, jacobian: Floats) -> None:
+    effective_state(q, v, sigma, state, jacobian)
+
+
+def _gap(p: BearingParameters, q: Floats, angle: Floats, z: Floats) -> Floats:
+    """Gap to the rigid bore in m, shape (z, angle)."""
+    lever = 0.5 * p.width * z
+    x = ((q[0] + q[3] * lever) / p.clearance)[:, None]
+    y = ((q[1] - q[2] * lever) / p.clearance)[:, None]
+    gap = 1.0 - x * np.cos(angle) - y * np.sin(angle)
+    if p.arcs:
+        moved = np.full(angle.size, np.nan)
+        for arc in p.arcs:
+            inside = np.array([arc.covers(float(phi)) for phi in angle])
+            moved[inside] = -arc.preload * np.cos(angle[inside] - arc.towards)
+        gap = gap + moved
+    return np.asarray(p.clearance * gap)

@@ -1,0 +1,47 @@
+"""The picture of a film holds its pressure: integrated it gives the film's force, its top is the largest."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bearing_fmu.film_map import film_map
+from fmus.port.bore import Arc, to_text
+from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, v
+
+FINE = replace(TURBINE, columns=96, rows=12)
+LEMON = to_text(
+    (Arc(0.1, np.pi - 0.1, 0.5, 0.5 * np.pi), Arc(np.pi + 0.1, 2 * np.pi - 0.1, 0.5, 1.5 * np.pi))
+)
+TURBULENT = replace(FINE, turbulence="constantinescu", density=860.0)
+CASES = {
+    "v1": ("v1", FINE, (0.3, -0.6, 0.15, -0.1)),
+    "v1-reynolds": ("v1", replace(FINE, boundary="reynolds", columns=192), (0.3, -0.6, 0.1, 0.0)),
+    "v1-lemon": ("v1", replace(FINE, bore=LEMON, feed_pressure=2e5), (0.1, -0.3, 0.05, 0.1)),
+    "v1-ambient": ("v1", replace(FINE, ambient_pressure=2e5), (0.3, -0.4, 0.1, 0.0)),
+    "v2": ("v2", FINE, (0.3, -0.6, 0.0, 0.0)),
+    "v2-odd": ("v2", replace(FINE, rows=11), (0.3, -0.6, 0.0, 0.0)),
+    "v3": ("v3", FINE, (0.3, -0.6, 0.0, 0.0)),
+    "v3-turbulent": ("v3", TURBULENT, (0.3, -0.6, 0.0, 0.0)),
+}
+
+
+@pytest.mark.parametrize(("depth", "parameters", "place"), CASES.values(), ids=CASES)
+def test_a_map_integrates_to_the_force_of_its_film(depth, parameters, place):
+    units = lever(parameters)
+    q, rate = np.array(place) * units, np.array([0.05, 0.02, 0.0, 0.0]) * units * SPEED
+    found = film_map(depth, parameters.values(), q, rate, SPEED, columns=1441, rows=81)
+    response = v(depth, parameters).respond(q, rate, SPEED)
+    wanted = response.wrench - response.contact_wrench
+    inward = -np.array([np.cos(found.angle), np.sin(found.angle)])
+    force = np.trapezoid(np.trapezoid(found.pressure, found.z, axis=0) * inward, found.angle)
+    force *= parameters.radius
+    np.testing.assert_allclose(force, wanted[:2], atol=4e-3 * np.hypot(*wanted[:2]))
+    assert found.pressure.max() == pytest.approx(response.p_max, rel=5e-3)
+    assert np.nanmin(found.gap) == pytest.approx(response.h_min, rel=1e-3)
+    assert (found.pressure >= 0.0).all()
+
+
+def test_depths_without_a_film_have_no_map():
+    assert film_map("linear", {}, np.zeros(4), np.zeros(4), SPEED) is None
+    assert film_map("of-another-maker", {}, np.zeros(4), np.zeros(4), SPEED) is None
