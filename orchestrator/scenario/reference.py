@@ -1,4 +1,4 @@
-"""Every key of a scenario in a table, made from the models.
+"""Every key of a scenario and of a train in tables, made from the models.
 
 ``python -m orchestrator.scenario.reference`` writes it into the page beside this file.
 """
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from bearing_fmu import depths
 from orchestrator.scenario.events import KINDS
@@ -24,6 +25,18 @@ from orchestrator.scenario.scenario import (
     Unbalance,
     WheelUnbalance,
 )
+from rotor_fmu.train.schema import (
+    BearingEntry,
+    CouplingEntry,
+    DampingEntry,
+    MassEntry,
+    MaterialEntry,
+    TrainToml,
+    WheelEntry,
+    unit_of,
+)
+from rotor_fmu.train.shoulder import Joint
+from rotor_fmu.train.train import BearingSeat, Coupling, Material, Train, Wheel
 
 _TABLES: tuple[tuple[str, type[BaseModel]], ...] = (
     ("", Scenario),
@@ -33,9 +46,38 @@ _TABLES: tuple[tuple[str, type[BaseModel]], ...] = (
     ("unbalance.at.WHEEL.", WheelUnbalance),
     *((f"events ({name}).", kind) for name, kind in KINDS.items()),
 )
+_TRAIN: tuple[tuple[str, type[BaseModel], tuple[type, ...]], ...] = (
+    ("", TrainToml, (Train,)),
+    ("damping.", DampingEntry, ()),
+    ("materials.NAME.", MaterialEntry, (Material,)),
+    ("bearing.", BearingEntry, (BearingSeat,)),
+    ("wheel.", WheelEntry, (Wheel,)),
+    ("mass.", MassEntry, (Wheel,)),
+    ("coupling.", CouplingEntry, (Coupling, Joint)),
+)
+"""Tables of train.toml, and the classes whose docstrings tell what their keys are."""
+_OWN_WORDS = {
+    "shaft": "Name of the table of shoulders beside the file.",
+    "z": "Axial position.",
+    "name": "1 to 40 letters, digits, spaces, points, hyphens and underscores.",
+    "preload": "1 - (least gap of the centred journal) / clearance, of bores of lobes.",
+    "offset": "Share of a lobe's length at which it comes closest; 0.5, of offset halves 1.",
+    "first": "Angle at which a lobe begins, from x towards y.",
+    "grooves": "Axial grooves, `[{at, width}]`.",
+    "arcs": "Arcs of any bore, `[{start, end, preload, towards}]`.",
+    "stiffness": "In place of a film: a number, or 2 x 2 or 4 x 4.",
+    "damping": "Beside `stiffness`, likewise; of the train: the table `damping`.",
+    "table": "In place of a film: name of a table of stiffness and damping over speed.",
+    "side": "`front` or `rear` of the elastic coupling at the same z.",
+    "bore": "plain, lemon, two-lobe, offset-halves, three-lobe, four-lobe; or `arcs`.",
+    "materials": "At least one.",
+    "bearing": "At least one.",
+    "alpha": "Damping of the mass, D = alpha M + beta K.",
+    "beta": "Damping of the stiffness.",
+}
 _LISTS = {"REDUCTIONS": REDUCTIONS, "COUPLINGS": COUPLINGS, "bearing_fmu.depths": depths.names()}
 PAGE = Path(__file__).with_name("README.md")
-_START, _END = "<!-- keys -->", "<!-- /keys -->"
+_MARKS = ("keys", "train-keys")
 _ENTRY = re.compile(r"^(\S.*?) : .*$\n((?:^(?:    .*|)$\n?)+)", re.MULTILINE)
 
 
@@ -50,6 +92,32 @@ def reference() -> str:
             default = "*must be given*" if field.is_required() else _shown(field.get_default())
             lines.append(f"| `{prefix}{name}` | {default} | {texts.get(name, '')} |")
     return "\n".join(lines) + "\n"
+
+
+def train_reference() -> str:
+    """A Markdown table of train.toml: key, unit, allowed values, default, what it is."""
+    lines = ["| key | unit | allowed | default | what it is |", "|---|---|---|---|---|"]
+    for prefix, model, classes in _TRAIN:
+        texts = {k: v for one in classes for k, v in _entries(cleandoc(one.__doc__ or ""))} | _OWN_WORDS
+        for name, field in model.model_fields.items():
+            if isinstance(field.default, list) and name in ("bearing", "wheel", "mass", "coupling"):
+                continue
+            default = "*must be given*" if field.is_required() else _shown(field.get_default())
+            cells = f"`{prefix}{name}`", unit_of(model, name), _allowed(field), default, texts.get(name, "")
+            lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _allowed(field: FieldInfo) -> str:
+    """The range of a number."""
+    signs = {"gt": "> ", "ge": "≥ ", "lt": "< ", "le": "≤ "}
+    bounds = (
+        f"{sign}{getattr(item, key):g}"
+        for item in field.metadata
+        for key, sign in signs.items()
+        if isinstance(getattr(item, key, None), float | int)
+    )
+    return ", ".join(bounds)
 
 
 def _texts(model: type[BaseModel]) -> dict[str, str]:
@@ -79,9 +147,11 @@ def _shown(value: Any) -> str:
 
 
 def page(text: str) -> str:
-    """The page with the table between its marks."""
-    head, _, rest = text.partition(_START)
-    return head + _START + "\n" + reference() + _END + rest.partition(_END)[2]
+    """The page with the tables between their marks."""
+    for mark, table in zip(_MARKS, (reference(), train_reference()), strict=True):
+        head, _, rest = text.partition(f"<!-- {mark} -->")
+        text = f"{head}<!-- {mark} -->\n{table}<!-- /{mark} -->" + rest.partition(f"<!-- /{mark} -->")[2]
+    return text
 
 
 if __name__ == "__main__":

@@ -88,7 +88,7 @@ def steps(largest: float, smallest: float, factor: float) -> list[float]:
 def _gap_steps(gaps: Sequence[NDArray[np.float64]]) -> list[float]:
     """In µm, finer where it is narrow; one step for what is below zero."""
     least, widest = (float(f([f(gap) for gap in gaps])) for f in (np.nanmin, np.nanmax))
-    found = steps(widest, max(abs(least), 0.005 * widest), quantities.GAP.factor)
+    found = steps(widest, 0.005 * widest, quantities.GAP.factor)
     return [min(least * quantities.GAP.factor, 0.0), *found[1:]] if least < 0.0 else found
 
 

@@ -29,6 +29,8 @@ _PAPER: dict[str, Any] = {
     "edgecolor": "none",
     "alpha": 0.8,
 }
+_LONG = 1500
+"""Samples from which a curve is an image in a PDF or SVG, which would be large and slow otherwise."""
 _LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
 
 
@@ -114,6 +116,7 @@ def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quanti
     """Draw the samples as a line and fill the way to the interval extremes."""
     time = view.shown_all(curve.time)
     look: dict[str, Any] = {"color": curve.colour, "linestyle": curve.dash, "linewidth": curve.width}
+    look["rasterized"] = time.size > _LONG
     axes.plot(time, curve.samples * quantity.factor, **look, label=curve.label)
     if curve.extremes is not None:
         axes.fill_between(
@@ -124,6 +127,7 @@ def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quanti
             alpha=0.55,
             linewidth=0,
             label="up to the extreme between samples",
+            rasterized=time.size > _LONG,
         )
 
 

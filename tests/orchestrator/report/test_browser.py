@@ -50,7 +50,7 @@ def page(tmp_path_factory):
 
 
 def test_every_figure_is_drawn(page):
-    assert page.value(f"{SHOWN}.map((panel) => panel.dataset.drawn)") == ["yes"] * 11
+    assert page.value(f"{SHOWN}.map((panel) => panel.dataset.drawn)") == ["yes"] * 15
     drawn = "panel.querySelectorAll('.main-svg, canvas').length > 0"
     assert page.value(f"{SHOWN}.every((panel) => {drawn})")
 

@@ -6,6 +6,7 @@ import math
 import re
 from dataclasses import dataclass, replace
 from io import StringIO
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -168,6 +169,22 @@ def test_an_engineer_holds_every_depth_against_every_limit():
     data = json.loads(PaperReport(found).to_json())
     assert [item["action"].partition(":")[0] for item in data["conclusions"]] == ["trip", "trip", "tolerable"]
     assert data["paper_criterion"][1]["action"].startswith("tolerable")
+
+
+def test_the_headline_of_the_readme_is_that_of_the_comparison():
+    """Of each depth: contact, gap, what follows from every limit, and by the paper's criterion."""
+    root = Path(__file__).parents[3]
+    text = (root / "orchestrator/scenario/bundled/paper/comparison.txt").read_text()
+    paper = " ".join(text.partition("The paper's criterion alone")[2].split())
+    (follows,) = re.findall(r"what follows +(\w+) +(\w+) +(\w+)", text)
+    rows = re.findall(r"^\| `(v\d)` \|(.+)\|$", (root / "README.md").read_text(), re.MULTILINE)
+    assert [depth for depth, _ in rows] == ["v1", "v2", "v3"]
+    for (depth, cells), action in zip(rows, follows, strict=True):
+        _, contact, gap, every, criterion = (cell.strip() for cell in cells.split("|"))
+        sentence = paper.partition(f"{depth.upper()} - ")[2].partition("N/mm²")[0]
+        assert sentence.startswith(f"{criterion}: ") and f"least gap {gap}" in sentence
+        assert (f"solid contact {contact}" if contact != "none" else "no contact") in sentence
+        assert every == action
 
 
 def test_a_finer_resolution_tells_what_it_changes():
