@@ -54,8 +54,8 @@ def tracked_order(
 ) -> tuple[Floats, Complex]:
     """Amplitude of an order while the speed changes: least squares over the turns around each instant.
 
-    In each window a mean that changes evenly and the order's cosine and sine of the angle turned through,
-    ``x = a + b t + Re A exp(i order theta)``, theta the integral of the speed.
+    In each window mean and amplitude change evenly, ``x = a + b t + Re (A + B t) exp(i order theta)``, theta
+    the integral of the speed, t from the middle of the window.
 
     Parameters
     ----------
@@ -89,9 +89,11 @@ def tracked_order(
             continue
         turn = np.exp(1j * order * theta[i:j])
         own = t[i:j] - at[k]
-        columns = np.column_stack([np.ones(j - i), own, turn.real, -turn.imag])
+        shapes = np.column_stack([np.ones(j - i), turn.real, -turn.imag])
+        scaled = own / np.abs(own).max()
+        columns = np.hstack([shapes, scaled[:, None] * shapes])
         a = np.linalg.lstsq(columns, x[i:j], rcond=None)[0]
-        found[k] = a[2] + 1j * a[3]
+        found[k] = a[1] + 1j * a[2]
     return at, found
 
 

@@ -21,8 +21,9 @@ def commands():
 
 
 def test_the_commands_of_the_page_lead_to_a_report(once, tmp_path, monkeypatch):
-    """With FMUs from a folder of the tests, and shorter runs without the paper's figures."""
+    """With FMUs from a folder of the tests, and shorter runs; figures are drawn elsewhere."""
     monkeypatch.setattr(page_of_report, "require_library", lambda: lambda: "library")
+    monkeypatch.setattr("orchestrator.report.print.figures_of", lambda *_, **__: iter(()))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tests").symlink_to(ROOT / "tests")
     fmus = ["--fmus", str(once("your_machine", lambda folder: None))]

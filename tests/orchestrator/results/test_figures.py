@@ -326,7 +326,7 @@ def test_the_worst_bearing_is_shown_unless_one_is_named(record):
 
 def test_writing_gives_every_figure_in_every_format(record, train, tmp_path):
     short = record.isel(time=slice(900, 1100))
-    files = write_figures([short], tmp_path / "figures", train=train, formats=("png", "svg"))
-    assert len(files) == 20
+    files = write_figures([short], tmp_path / "figures", train=train, formats=("png",))
+    assert len(files) == 10
     assert all(path.stat().st_size > 1000 for path in files)
     assert quantities.FORCE.unit == "MN"

@@ -10,6 +10,7 @@ from orchestrator.results.signals.orders import (
     order_amplitudes,
     probe_signals,
     running_peak_to_peak,
+    tracked_order,
     whirl_of,
 )
 from orchestrator.results.signals.spectrum import evenly, spectrum, waterfall
@@ -124,3 +125,15 @@ def test_an_envelope_keeps_ends_and_extremes_of_every_piece():
         assert inside.max() >= values[piece].max()
         assert inside.min() <= values[piece].min()
     np.testing.assert_array_equal(envelope(values[:400], 500), np.arange(400))
+
+
+def test_an_order_is_tracked_while_the_speed_changes():
+    """A run-up: amplitude and lag of 1X at each speed to 1e-6, beside a drifting mean."""
+    time = np.arange(0.0, 4.0, 5e-4)
+    speed = 60.0 + 80.0 * time
+    theta = 60.0 * time + 40.0 * time**2
+    signal = 3.0 + 0.2 * time + (1.0 + 0.5 * time) * np.cos(theta - 0.7)
+    at, found = tracked_order(time, signal, speed)
+    np.testing.assert_allclose(np.abs(found), 1.0 + 0.5 * at, rtol=1e-6)
+    np.testing.assert_allclose(np.angle(found), -0.7, rtol=1e-6)
+    assert tracked_order(time[:50], signal[:50], speed[:50])[0].size == 0
