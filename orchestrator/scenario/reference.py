@@ -25,6 +25,8 @@ from orchestrator.scenario.scenario import (
     Unbalance,
     WheelUnbalance,
 )
+from rotor_fmu.train.entry import unit_of
+from rotor_fmu.train.pedestal import PedestalEntry
 from rotor_fmu.train.schema import (
     BearingEntry,
     CouplingEntry,
@@ -33,8 +35,8 @@ from rotor_fmu.train.schema import (
     MaterialEntry,
     TrainToml,
     WheelEntry,
-    unit_of,
 )
+from rotor_fmu.train.seat import Pedestal
 from rotor_fmu.train.shoulder import Joint
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Train, Wheel
 
@@ -51,6 +53,7 @@ _TRAIN: tuple[tuple[str, type[BaseModel], tuple[type, ...]], ...] = (
     ("damping.", DampingEntry, ()),
     ("materials.NAME.", MaterialEntry, (Material,)),
     ("bearing.", BearingEntry, (BearingSeat,)),
+    ("bearing.pedestal.", PedestalEntry, (Pedestal,)),
     ("wheel.", WheelEntry, (Wheel,)),
     ("mass.", MassEntry, (Wheel,)),
     ("coupling.", CouplingEntry, (Coupling, Joint)),
@@ -70,6 +73,8 @@ _OWN_WORDS = {
     "table": "In place of a film: name of a table of stiffness and damping over speed.",
     "side": "`front` or `rear` of the elastic coupling at the same z.",
     "bore": "plain, lemon, two-lobe, offset-halves, three-lobe, four-lobe; or `arcs`.",
+    "foundation": "Name of a table with the modes of a foundation beside the file.",
+    "pedestal": "What the bearing stands on: the keys below.",
     "materials": "At least one.",
     "bearing": "At least one.",
     "alpha": "Damping of the mass, D = alpha M + beta K.",
