@@ -53,6 +53,7 @@ OF_PHYSICS_FOR_THE_MASTER = {
     "rotor_fmu.train.schema",  # its keys, for the page of all keys
     "rotor_fmu.train.entry",
     "rotor_fmu.train.pedestal",
+    "rotor_fmu.train.seat",
     "rotor_fmu.train.shoulder",
     "rotor_fmu.train.toml_source",
     "rotor_fmu.train.wording",
