@@ -46,7 +46,7 @@ def printed(results: Sequence[Result], bearing: str) -> bytes:
     information = {"Title": title, "Creator": "bladeloss", "CreationDate": None}
     with own_settings(), PdfPages(content, metadata=information) as pages:
         for result in results:
-            lines = [title, "", *_words(result)]
+            lines = "\n".join([title, "", *_words(result)]).rstrip().split("\n")
             for start in range(0, len(lines), LINES):
                 pages.savefig(_page(lines[start : start + LINES], headed=start == 0))
         for _, figure in figures_of([result.record for result in results], bearing=bearing):

@@ -21,6 +21,8 @@ from orchestrator.report.source import ReportError, Result, shown_bearing
 from orchestrator.results.replacing import umask
 
 FILE = "report.html"
+_SIGN = 83
+"""Letters of the line behind what is written, by which it is known as written here."""
 
 
 def report_text(results: Sequence[Result], bearing: str | None = None) -> str:
@@ -79,7 +81,8 @@ def _write_whole(path: Path, make: Callable[[], bytes]) -> Path:
 def _sign(content: bytes) -> bytes:
     """A comment behind the end of a page, or of a PDF."""
     digest = hashlib.sha256(content).hexdigest()
-    return (f"% bladeloss {digest}    \n" if content.startswith(b"%PDF") else f"<!-- bladeloss {digest} -->\n").encode()
+    text = "% bladeloss {}" if content.startswith(b"%PDF") else "<!-- bladeloss {} -->"
+    return f"{text.format(digest):<{_SIGN}}\n".encode()
 
 
 def _as_written(path: Path) -> bool:

@@ -11,6 +11,7 @@ from bearing_fmu.bore.bore import bore_of, least_gap
 from bearing_fmu.film import make_film
 from fmus.port.bore import Arc, check, from_text, grooved, lobes, room, to_text
 from tests.bearing_fmu.bearings import lever, plain, respond, table
+from tests.published import published as published_case
 
 WHOLE = lobes(1, 0.0, first=1.2)
 HORIZONTAL = (0.0, math.pi)
@@ -181,6 +182,11 @@ KEYS = ("Kxx", "Kxy", "Kyx", "Kyy", "Bxx", "Bxy", "Byy")
 
 @pytest.mark.parametrize(
     "row", table("bores_lund_thomsen_1978.csv"), ids=lambda row: f"{row['bearing']}-{row['S']}"
+)
+@published_case(
+    "two axial grooves and lemon bore",
+    "Lund and Thomsen 1978",
+    "eccentricity 0.003, angle 0.3 deg, coefficients 6 % + 0.06",
 )
 def test_two_grooves_and_lemon_of_lund_and_thomsen(row):
     fine = row["S"] == "0.12"  # its cross damping, nearly none, asks for it

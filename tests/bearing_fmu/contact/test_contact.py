@@ -9,9 +9,11 @@ from scipy.integrate import quad
 from bearing_fmu.contact.greenwood_tripp import asperity_integral, contact_pressure
 from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond, table
+from tests.published import published
 
 
 @pytest.mark.parametrize("order, column", [(1.0, "F1"), (2.0, "F2"), (1.5, "F3/2"), (2.5, "F5/2")])
+@published("integrals of the asperity contact", "Greenwood and Tripp 1970, as tabulated", "1e-6")
 def test_tabulated_integrals(order, column):
     rows = table("greenwood_tripp_integrals.csv")
     gaps = np.array([float(row["H"]) for row in rows])

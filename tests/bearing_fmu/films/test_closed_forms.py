@@ -7,6 +7,7 @@ import pytest
 
 from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import plain, respond
+from tests.published import published
 
 ECCENTRICITIES = (0.1, 0.3, 0.5, 0.7, 0.9, 0.97)
 # Enough pressure at the ends that nothing ruptures: the full (2 pi) film.
@@ -19,6 +20,7 @@ def short_unit(p):
 
 
 @pytest.mark.parametrize("e", ECCENTRICITIES)
+@published("force of the short bearing", "Ocvirk 1953", "1e-12")
 def test_ocvirk(e):
     """Ocvirk 1953: half film of the short bearing."""
     p = plain(0.25)
@@ -29,6 +31,11 @@ def test_ocvirk(e):
 
 
 @pytest.mark.parametrize("e", ECCENTRICITIES[:-1])
+@published(
+    "stiffness and damping of the short bearing",
+    "Friswell, Penny, Garvey and Lees 2010, section 5.5.1",
+    "1e-10",
+)
 def test_friswell_stiffness_and_damping(e):
     """Friswell, Penny, Garvey, Lees 2010, section 5.5.1: K = a W/C, C = b W/(C omega), v against the load."""
     p = plain(0.25)

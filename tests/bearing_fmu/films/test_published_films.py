@@ -7,6 +7,7 @@ import pytest
 
 from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import force_unit, plain, respond, table
+from tests.published import published
 
 MISALIGNED = table("misaligned_guembel.csv")
 BUTENSCHOEN = table("butenschoen_1976_rotation.csv")
@@ -28,6 +29,11 @@ def misaligned_error(row, columns, forces=("Fx_gumbel", "Fy", "Mx", "My"), **cha
 
 
 @pytest.mark.parametrize("row", MISALIGNED, ids=lambda row: row["case"])
+@published(
+    "misaligned journals with squeeze",
+    "independent solution by finite volumes, converged",
+    "force 0.3 %, moment 0.35 % at 48 x 8",
+)
 def test_tilted_film_at_default_resolution(row):
     force, moment = misaligned_error(row, (48, 8))
     assert force < 0.003
@@ -74,6 +80,11 @@ def sommerfeld_and_angle(aspect, eccentricity, depth="v1", fed_at_widest_gap=Fal
 
 @pytest.mark.parametrize("depth", ["v1", "v2"])
 @pytest.mark.parametrize("row", BUTENSCHOEN, ids=lambda row: f"{row['B_over_D']}-{row['eps']}")
+@published(
+    "pressure of wide and short bearings, rotation alone, half film",
+    "Butenschoen 1976, solved again to convergence",
+    "Sommerfeld number 0.08 %, angle 0.015 deg",
+)
 def test_butenschoen_guembel(row, depth):
     aspect, eps = float(row["B_over_D"]), float(row["eps"])
     so, beta, _ = sommerfeld_and_angle(aspect, eps, depth, columns=96, rows=12)
@@ -82,6 +93,11 @@ def test_butenschoen_guembel(row, depth):
 
 
 @pytest.mark.parametrize("row", BUTENSCHOEN, ids=lambda row: f"{row['B_over_D']}-{row['eps']}")
+@published(
+    "pressure of wide and short bearings, rotation alone, Reynolds' condition",
+    "Butenschoen 1976",
+    "Sommerfeld number 0.9 %, angle 0.1 deg",
+)
 def test_butenschoen_reynolds(row):
     aspect, eps = float(row["B_over_D"]), float(row["eps"])
     so, beta, _ = sommerfeld_and_angle(
@@ -92,6 +108,11 @@ def test_butenschoen_reynolds(row):
 
 
 @pytest.mark.parametrize("row", RAIMONDI_BOYD, ids=lambda row: f"{row['L_over_D']}-{row['eps']}")
+@published(
+    "load, angle and friction of full bearings",
+    "Raimondi and Boyd 1958",
+    "S 1.4 %, angle 0.56 deg, friction 0.8 %; L/D 0.25 at 0.97: 3.1 %",
+)
 def test_raimondi_boyd(row):
     aspect, eps = float(row["L_over_D"]), float(row["eps"])
     so, attitude, response = sommerfeld_and_angle(

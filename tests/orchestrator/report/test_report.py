@@ -128,6 +128,9 @@ def test_the_same_can_be_printed(records, tmp_path, monkeypatch):
     content = write_print(results_of(short), tmp_path / "report.pdf").read_bytes()
     assert content.startswith(b"%PDF") and content.count(b"/Type /Page ") >= 2 + 2
     assert b"CreationDate" not in content  # the same results give the same bytes
+    (tmp_path / "report.pdf").write_bytes(content + b"mine")
+    with pytest.raises(ReportError, match="was changed since"):
+        write_print(results_of(short), tmp_path / "report.pdf")
 
 
 def test_orbits_of_a_bearing_have_the_same_axes_in_all_results(pages):

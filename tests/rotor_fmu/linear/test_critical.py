@@ -23,6 +23,7 @@ from rotor_fmu.linear.analysis import (
 )
 from rotor_fmu.linear.critical import CriticalSpeed
 from rotor_fmu.train.train import BearingSeat, Material, Shoulder, Train, Wheel
+from tests.published import published
 
 GRAVITY = 9.80665
 CLEARANCE = 1e-4
@@ -135,6 +136,7 @@ def test_a_critical_speed_of_the_map_is_a_whirl_as_fast_as_the_shaft():
     ("factor", "below", "above"),
     [(2.0, 0.0, 0.0), (3.5, 8.5, 18.5), (10.0, 15.0, 25.0), (100.0, 16.0, 26.0)],
 )
+@published("separation margins of critical speeds", "API 684, SP6.8.2.10", "exactly")
 def test_separation_margins_are_those_of_api_684(factor, below, above):
     """min(16, 17 (1 - 1/(AF - 1.5))) below and min(26, 10 + 17 (1 - 1/(AF - 1.5))) above, from AF 2.5 on."""
     peak = CriticalSpeed(100.0, 1.0, 0, 100.0 - 50.0 / factor, 100.0 + 50.0 / factor)

@@ -13,6 +13,7 @@ from rotor_fmu.reduction.reduce import reduce
 from rotor_fmu.shaft.matrices import assemble
 from rotor_fmu.train.file import load_train
 from rotor_fmu.train.train import Material, Train, Wheel
+from tests.published import published
 from tests.rotor_fmu.published_rotors import friswell, lalanne_ferraris, springs, uniform_shaft, with_bearings
 
 RPM = 2.0 * math.pi / 60.0
@@ -29,6 +30,11 @@ def hertz(modes):
         (4000.0, [13.5902, 13.9731, 40.0728, 46.9051, 95.5215, 131.6331]),
     ],
 )
+@published(
+    "whirl of two discs on isotropic supports, at rest and at 4000 rev/min",
+    "Friswell et al. 2010, example 5.9.1",
+    "every printed digit",
+)
 def test_isotropic_supports_of_friswell_5_9_1(rpm, published):
     modes = whirl_modes(assemble(friswell()), rpm * RPM, 6, bearings=springs(1e6, 1e6))
     assert hertz(modes) == pytest.approx(published, abs=6e-5)
@@ -36,6 +42,11 @@ def test_isotropic_supports_of_friswell_5_9_1(rpm, published):
         assert modes.direction == pytest.approx([-1, 1, -1, 1, -1, 1], abs=1e-9)
 
 
+@published(
+    "two discs on damped supports: frequencies, damping ratios",
+    "Friswell et al. 2010, example 5.9.5",
+    "every printed digit",
+)
 def test_damped_supports_of_friswell_5_9_5():
     modes = whirl_modes(assemble(friswell()), 4000.0 * RPM, 6, bearings=springs(1e6, 1e6, 3e3, 3e3))
     assert hertz(modes) == pytest.approx([13.6819, 14.0716, 41.9829, 50.6487, 104.2484, 105.6629], abs=6e-5)
@@ -48,6 +59,11 @@ def test_damped_supports_of_friswell_5_9_5():
         (0.0, [60.615, 63.025, 169.496, 185.563, 329.605, 362.078, 529.333, 557.573]),
         (25000.0, [55.411, 67.197, 157.898, 193.639, 249.851, 407.463, 446.713]),
     ],
+)
+@published(
+    "three discs on anisotropic supports, at rest and at 25000 rev/min",
+    "Lalanne and Ferraris 1998",
+    "0.0006 Hz",
 )
 def test_anisotropic_supports_of_lalanne_and_ferraris(rpm, published):
     bearings = springs(5e7, 7e7, 500.0, 700.0)

@@ -13,6 +13,7 @@ from rotor_fmu.shaft.beam import shear_coefficient
 from rotor_fmu.shaft.matrices import assemble, plane_x, plane_y
 from rotor_fmu.train.file import load_train
 from rotor_fmu.train.train import Material, Shoulder, Wheel
+from tests.published import published
 from tests.rotor_fmu.published_rotors import uniform_shaft
 
 STEEL = Material("steel", 2.1e11, 0.3, 7850.0)
@@ -32,6 +33,7 @@ def test_first_free_frequency_has_the_known_error(elements, error, digits):
     assert f"{frequency / HUANG[0] - 1.0:.{digits}e}" == f"{error:.{digits}e}"
 
 
+@published("free frequencies of a thick beam", "Huang 1961", "second order; extrapolated 1e-6")
 def test_free_frequencies_converge_to_huang_with_the_square_of_the_length():
     coarse, fine = (elastic_frequencies(uniform_shaft(6.0, 1.2, n, STEEL), 5) / HUANG - 1 for n in (80, 160))
     assert np.log2(coarse / fine) == pytest.approx(2.0, abs=0.01)
@@ -39,6 +41,7 @@ def test_free_frequencies_converge_to_huang_with_the_square_of_the_length():
     assert extrapolated == pytest.approx(HUANG, rel=1e-6)
 
 
+@published("shear coefficients of solid and thin sections", "Cowper 1966", "1e-12; thin 1e-8")
 def test_shear_coefficient_of_cowper():
     solid, thin = shear_coefficient(np.array([0.0, 1.0 - 1e-9]), np.array([0.3, 0.3]))
     assert solid == pytest.approx(6.0 * 1.3 / (7.0 + 1.8), rel=1e-12)

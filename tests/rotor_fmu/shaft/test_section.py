@@ -18,6 +18,7 @@ from rotor_fmu.shaft.matrices import assemble
 from rotor_fmu.shaft.section import section_element
 from rotor_fmu.shaft.stress import bending_stress
 from rotor_fmu.train.train import Coupling, Joint, LumpedMass, Material, Ring, Shoulder, Train
+from tests.published import published
 from tests.rotor_fmu.published_rotors import seat
 from tests.rotor_fmu.published_rotors import with_bearings as on_bearings
 
@@ -113,6 +114,7 @@ def test_a_cone_under_a_force_at_its_tip():
     assert first == pytest.approx(scipy.integrate.trapezoid(section * x, x), rel=1e-6)
 
 
+@published("frequencies of a slender cone", "Kirchhoff 1882; Mabie and Rogers 1972", "3e-5")
 def test_a_cone_swings_as_bessel_functions_say():
     """Slender truncated cone, thick end clamped: w = Z(2 sqrt(b x)) / x, Z of J2, Y2, I2, K2, x from apex.
 
