@@ -17,10 +17,10 @@ _Test = TypeVar("_Test")
 _HEAD = """\
 # Verification: published cases and closed forms
 
-Made by `python -m tests.published` from the marks of the tests, which hold the code against these figures on
-each change. What a test asks for is in its file, with the figures and their sources; a bound here is the loosest
-of the test. Own closed forms, symmetries, conservation and convergence are proved besides, in the same folders;
-faults and what happens in them: [README.md](README.md).
+Made by `python -m tests.published` from the marks of the tests, which hold the code against these figures
+on each change. What a test asks for is in its file, with the figures and their sources; a bound here is the
+loosest of the test. Own closed forms, symmetries, conservation and convergence are proved besides, in the
+same folders; faults and what happens in them: [README.md](README.md).
 
 | what | case | source | agrees within | test |
 |---|---|---|---|---|

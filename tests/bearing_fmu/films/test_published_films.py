@@ -31,7 +31,7 @@ def misaligned_error(row, columns, forces=("Fx_gumbel", "Fy", "Mx", "My"), **cha
 @pytest.mark.parametrize("row", MISALIGNED, ids=lambda row: row["case"])
 @published(
     "misaligned journals with squeeze",
-    "independent solution by finite volumes, converged",
+    "two independent discretisations, converged",
     "force 0.3 %, moment 0.35 % at 48 x 8",
 )
 def test_tilted_film_at_default_resolution(row):
@@ -82,7 +82,7 @@ def sommerfeld_and_angle(aspect, eccentricity, depth="v1", fed_at_widest_gap=Fal
 @pytest.mark.parametrize("row", BUTENSCHOEN, ids=lambda row: f"{row['B_over_D']}-{row['eps']}")
 @published(
     "pressure of wide and short bearings, rotation alone, half film",
-    "Butenschoen 1976, solved again to convergence",
+    "Butenschoen 1976, an independent converged solution",
     "Sommerfeld number 0.08 %, angle 0.015 deg",
 )
 def test_butenschoen_guembel(row, depth):
