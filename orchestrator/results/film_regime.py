@@ -6,11 +6,16 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from bearing_fmu import depths
 from orchestrator.scenario.scenario import Scenario
 from rotor_fmu.train.train import BearingSeat, Train
+
+_UNLOADED = 1e-3
+"""Static force over the largest force in motion; of loaded bearings some 0.1 at the least."""
 
 
 @dataclass(frozen=True)
@@ -27,12 +32,15 @@ class FilmRegime:
         Where vortices set in, 41.1 sqrt(R / C) (Taylor 1923).
     laminar : bool
         Whether its film is taken as laminar.
+    unloaded : bool
+        Whether it carries next to nothing of the shaft at rest: a film then has no stiffness of its own.
     """
 
     bearing: str
     reynolds: float
     taylor: float
     laminar: bool
+    unloaded: bool = False
 
     @property
     def beyond(self) -> bool:
@@ -74,12 +82,21 @@ def regimes(record: xr.Dataset) -> tuple[FilmRegime, ...]:
     """Of every bearing of a record that has a film; empty where it does not tell."""
     if not {"reynolds", "taylor_limit", "laminar"} <= set(record.coords):
         return ()
-    columns = (record[name].values for name in ("bearing", "reynolds", "taylor_limit", "laminar"))
+    columns = [record[name].values for name in ("bearing", "reynolds", "taylor_limit", "laminar")]
     return tuple(
-        FilmRegime(str(name), float(number), float(limit), bool(laminar))
-        for name, number, limit, laminar in zip(*columns, strict=True)
+        FilmRegime(str(name), float(number), float(limit), bool(laminar), bool(bare))
+        for name, number, limit, laminar, bare in zip(*columns, _unloaded(record), strict=True)
         if math.isfinite(number)
     )
+
+
+def _unloaded(record: xr.Dataset) -> NDArray[np.bool_]:
+    """Whether the static force of each bearing is little beside its forces in motion."""
+    if not {"static_force", "force"} <= set(record.data_vars) or not record.sizes["time"]:
+        return np.zeros(record.sizes["bearing"], dtype=bool)
+    static = np.linalg.norm(record["static_force"].values, axis=-1)
+    force = np.linalg.norm(record["force"].transpose("time", "bearing", "axis").values, axis=-1)
+    return np.asarray(static < _UNLOADED * force.max(axis=0))
 
 
 def regime_text(films: tuple[FilmRegime, ...]) -> str:
@@ -90,6 +107,12 @@ def regime_text(films: tuple[FilmRegime, ...]) -> str:
     text = "Reynolds number (Taylor's limit) " + "; ".join(
         f"{number} ({limit}) at {', '.join(names)}" for (number, limit), names in groups.items()
     )
+    bare = [film.bearing for film in films if film.unloaded]
+    if bare:
+        text += (
+            f". {', '.join(bare)}: next to no static load, so that the film has hardly any stiffness and the "
+            "journal may whirl at half the speed"
+        )
     count = sum(film.beyond for film in films)
     if count:
         text += (

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -94,3 +95,14 @@ def test_units_fit_small_machines():
     assert FORCE.fitting(6e4).unit == "kN"
     assert FORCE.fitting(60.0).text(60.0) == "60.00 N"
     assert MOMENT.fitting(600.0).text(600.0) == "0.60 kN m"
+
+
+def test_a_film_that_carries_nothing_is_said():
+    record = synthetic_record.record()
+    assert not any(film.unloaded for film in summarise(result(record)).films)
+    static = np.array(record["force"].values[0])
+    static[3] = 0.0
+    record["static_force"] = (("bearing", "axis"), static)
+    found = summarise(result(record))
+    assert [film.bearing for film in found.films if film.unloaded] == [synthetic_record.NAMES[3]]
+    assert f"{synthetic_record.NAMES[3]}: next to no static load" in " ".join(to_text(found).split())
