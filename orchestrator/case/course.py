@@ -10,7 +10,7 @@ from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
 
-LONGEST = 40
+LONGEST = 20
 """Macro steps to a revolution at least, where a scheme of many rates chooses them."""
 
 

@@ -229,8 +229,9 @@ class Stepper:
         """Relative defect of a step, and weighted relative error from its length."""
         assert advance.of_length is not None
         of_length = OF_LENGTH * self._system.relative(advance.of_length)
-        judged = advance.defect if advance.judged is None else advance.judged
-        return self._system.relative(judged), of_length
+        if advance.sizes is None or advance.answers is None:
+            return self._system.relative(advance.defect), of_length
+        return float(advance.sizes.max(where=advance.answers, initial=0.0)), of_length
 
     def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
         system = self._system
@@ -261,6 +262,6 @@ class Stepper:
         counts.accepted += 1
         counts.iterations += advance.iterations
         counts.shortest = min(counts.shortest, step)
-        defect = sizes[0] if advance.judged is None else self._system.relative(advance.defect)
+        defect = sizes[0] if advance.sizes is None else float(advance.sizes.max())
         counts.largest_relative_defect = max(counts.largest_relative_defect, defect)
         counts.largest_relative_error = max(counts.largest_relative_error, *sizes)

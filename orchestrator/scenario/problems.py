@@ -25,6 +25,9 @@ STEPS_PER_REVOLUTION = 10
 MOST_STEPS = 1e9
 """Of a run: a day for a train whose step takes a tenth of a millisecond."""
 
+COARSEST = 0.1
+"""Tolerance of many rates up to which the turbine's contact was found, at 0.3 its shaft was thrown out."""
+
 _BYTES_AT_BEARING = 8 * 31
 _BYTES_AT_NODE = 4 * 4
 """Of one sample of the record, see `orchestrator.observers.recorder`."""
@@ -119,6 +122,12 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
             ("tolerance",),
             f"tolerance = {scenario.tolerance!r}; allowed is none with coupling jacobi, whose bearings see "
             "the rotor a step late: what that neglects does not fall with the step; take gauss-seidel",
+        )
+    if scenario.coupling == "multirate" and (scenario.tolerance or 0.0) > COARSEST:
+        yield (
+            ("tolerance",),
+            f"tolerance = {scenario.tolerance!r}; allowed is at most {COARSEST:g} with coupling multirate: "
+            "beyond that a journal may hit its shell before the bearing is evaluated again",
         )
     if scenario.step > scenario.end:
         yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"

@@ -155,7 +155,7 @@ class Scenario(Model):
         End time in s.
     step : float
         Macro step in s; the longest one where a tolerance is given. With coupling multirate the step with
-        which the rotor begins; the longest then is the record's interval or a fortieth of a revolution.
+        which the rotor begins; the longest then is the record's interval or a twentieth of a revolution.
     tolerance : float or None
         Largest relative error of a step: of the defect, the wrench of a bearing less the one that the rotor
         was moved by, and of what comes of the step's length, against the larger of the mean static load and

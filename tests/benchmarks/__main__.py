@@ -1,4 +1,4 @@
-"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f]``."""
+"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g]``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,15 @@ import sys
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
-from tests.benchmarks import error_against_cost, film_cost, growth, macro_step, mass_conserving, threads  # noqa: E402
+from tests.benchmarks import (  # noqa: E402
+    error_against_cost,
+    film_cost,
+    growth,
+    macro_step,
+    mass_conserving,
+    threads,
+    work_precision,
+)
 
 BENCHMARKS = {
     "a": film_cost.main,
@@ -18,6 +26,7 @@ BENCHMARKS = {
     "d": growth.main,
     "e": threads.main,
     "f": mass_conserving.main,
+    "g": work_precision.main,
 }
 
 

@@ -30,15 +30,18 @@ class Advance(NamedTuple):
         `orchestrator.master.step_error`; the step control puts it in.
     evaluated : ndarray of bool or None
         The bearings that stand at the end of the step; the defect of others is 0. None: all.
-    judged : ndarray or None
-        What of the defect the length of this step answers for; None: all.
+    sizes : ndarray or None
+        The defects against what is transmitted, (bearings,), as far as the scheme knows them.
+    answers : ndarray of bool or None
+        The bearings for whose defect the length of this step answers; None: all.
     """
 
     iterations: int
     defect: NDArray[np.float64]
     of_length: NDArray[np.float64] | None = None
     evaluated: NDArray[np.bool_] | None = None
-    judged: NDArray[np.float64] | None = None
+    sizes: NDArray[np.float64] | None = None
+    answers: NDArray[np.bool_] | None = None
 
 
 class NotConverged(OrchestratorError):

@@ -131,10 +131,10 @@ class Multirate:
         defect[~due] = 0.0
         sizes = system.sizes(defect)
         # A shorter step helps those that stand at its start, and others once, to be evaluated in time.
-        answers = fresh | (sizes > self.tolerance) & ~again
+        answers = fresh | ~(sizes <= self.tolerance) & ~again | np.isnan(sizes)
         self._rough = sizes > self.tolerance
         self._next = rates.after(end, due, moved, sizes, OWN * self.tolerance)
-        return Advance(1, defect, None, due, defect * answers[:, None])
+        return Advance(1, defect, None, due, sizes, answers)
 
     def _at(self, system: System, time: float, step: float) -> Rates:
         """Return how the bearings stand at the start of a step; one before that was not refused counts."""

@@ -5,8 +5,9 @@ import pytest
 
 from orchestrator.case.course import course_of
 from orchestrator.case.simulate import Execution, simulate
+from orchestrator.errors import ScenarioError
 from orchestrator.master.coupling import LinearImplicit, Multirate
-from orchestrator.master.coupling.multirate import CALM, OWN, Rates
+from orchestrator.master.coupling.multirate import CALM, Rates
 from orchestrator.master.stepping import Stepper
 from orchestrator.observers.ledger import Ledger
 from rotor_fmu.train.file import load_train
@@ -160,7 +161,7 @@ def test_one_thread_or_two_give_the_same_record(toy_fmus, tmp_path):
 
 
 def test_common_instants_are_as_far_apart_as_records_and_the_revolution_allow(tmp_path):
-    """The turbine turns at 25 Hz: a fortieth of its revolution is 1 ms."""
+    """The turbine turns at 25 Hz: a twentieth of its revolution is 2 ms."""
     turbine = load_train("turbine")
 
     def course(**changes):
@@ -169,6 +170,9 @@ def test_common_instants_are_as_far_apart_as_records_and_the_revolution_allow(tm
         return made.step, stride, made.level, made.tolerance
 
     assert course(record={"interval": 5e-4}) == (pytest.approx(5e-4), 1, 3, Multirate.tolerance)
-    assert course(record={"interval": 2.4e-3}) == (pytest.approx(8e-4), 3, 3, Multirate.tolerance)
-    assert course(record={"interval": 1e-4}, tolerance=0.3) == (1e-4, 1, 0, 0.3)
-    assert OWN < 1.0
+    assert course(record={"interval": 2.4e-3}) == (pytest.approx(1.2e-3), 2, 4, Multirate.tolerance)
+    assert course(record={"interval": 1e-4}, tolerance=0.1) == (1e-4, 1, 0, 0.1)
+    with pytest.raises(
+        ScenarioError, match=r"tolerance = 0\.3; allowed is at most 0\.1 with coupling multirate"
+    ):
+        course(tolerance=0.3)
