@@ -60,10 +60,11 @@ def edited(source, target, changes):
         {},
         {"reduction": "guyan", "film": {"columns": 32, "rows": 6}},
         {"tolerance": 2e-3, "step": 4e-4},
+        {"coupling": "multirate", "tolerance": 1e-3},
         {"event": None, "unbalance": {"grade": 1e-3, "at": {"wheel-1": {"unbalance": 0.02, "phase": 0.3}}}},
         {"depth": "linear", "depth_at": {}, "linear_from": "v3"},
     ],
-    ids=["as it comes", "reduction and film", "controlled steps", "no fracture", "linear"],
+    ids=["as it comes", "reduction and film", "controlled steps", "many rates", "no fracture", "linear"],
 )
 def test_scenario_to_ssp_to_run_equals_the_run_of_the_scenario(settings, fmus, tmp_path):
     scenario = small(**settings)
