@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 from rich.console import Console
 
 from bearing_fmu import depths
@@ -20,7 +21,15 @@ from orchestrator.scenario.file import read_train
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import choice
 
-Evaluate = Callable[..., dict[str, float]]
+
+class Evaluate(Protocol):
+    """A bearing as a function of its journal's state, see `bearing`."""
+
+    def __call__(
+        self, q: ArrayLike, v: ArrayLike = (0.0,) * 4, speed: float = port.NOMINAL_SPEED
+    ) -> dict[str, float]:
+        """Outputs of the port by name."""
+        ...
 
 
 def train(source: str | Path = "turbine") -> Train:
@@ -102,7 +111,7 @@ def bearing(depth: str = "v1", **parameters: float) -> Evaluate:
     names = [variable.name for variable in port.BEARING_OUTPUTS]
 
     def evaluate(
-        q: Sequence[float], v: Sequence[float] = (0.0,) * 4, speed: float = port.NOMINAL_SPEED
+        q: ArrayLike, v: ArrayLike = (0.0,) * 4, speed: float = port.NOMINAL_SPEED
     ) -> dict[str, float]:
         inputs = np.concatenate([np.asarray(q, float), np.asarray(v, float), np.zeros(8), [float(speed)]])
         try:

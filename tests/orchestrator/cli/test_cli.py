@@ -191,10 +191,14 @@ def test_a_run_leaves_everything_and_says_where(short_run):
     names = (
         "all-bearings",
         "deformed-train",
+        "film",
         "forces-and-moments",
         "least-gap",
         "normal-stress",
+        "orbits",
+        "spectra",
         "vibration-amplitude",
+        "waterfall",
     )
     figures = [f"figures/{name}.png" for name in names]
     others = [MANIFEST, "record.csv", "record.nc", "scenario.toml", "summary.json", "summary.txt"]

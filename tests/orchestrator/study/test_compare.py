@@ -34,10 +34,14 @@ RUN = [MANIFEST, "record.csv", "record.nc", "scenario.toml", "summary.json", "su
 FIGURES = [
     "all-bearings.png",
     "deformed-train.png",
+    "film.png",
     "forces-and-moments.png",
     "least-gap.png",
     "normal-stress.png",
+    "orbits.png",
+    "spectra.png",
     "vibration-amplitude.png",
+    "waterfall.png",
 ]
 
 
