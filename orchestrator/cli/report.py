@@ -13,8 +13,9 @@ from orchestrator.cli.options import command_of
 REPORT_HELP = (
     "Make one page of the results of one or several runs, to read and to hand over.\n\n"
     "What was run and how far to trust it, what every limit says, orbits of all bearings in their "
-    "clearances, forces, gaps, spectra, waterfall, the shaft in space over time. One HTML file that needs no "
-    "network and no server; several runs stand side by side in the same axes.\n\n"
+    "clearances, forces, gaps, spectra, waterfall, films at their worst instants, the shaft in space over "
+    "time. One HTML file that needs no network and no server; several runs stand side by side in the same "
+    "axes. [bold]--pdf[/bold] writes the same for printing.\n\n"
     "Limits come from [bold]limits.toml[/bold] beside the train's file where there is one, from "
     "[bold]--limits[/bold], or else from standards."
 )
