@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits  # noqa: E402
 from bearing_fmu import depths  # noqa: E402
 from orchestrator.fmi.folder import build  # noqa: E402
 from rotor_fmu.train.file import load_train  # noqa: E402
+from tests.bearing_fmu.cold_kernels import VARIANTS  # noqa: E402
 
 threadpool_limits(1)  # where a plugin of pytest has loaded numpy before
 
@@ -28,7 +29,7 @@ _COUNTED = "COVERAGE_PROCESS_CONFIG"
 def pytest_configure(config):
     """Compile the kernels before the workers start, which would each compile them.
 
-    On two cores: the first depth takes as long as the others. Nor does each of their processes compile the
+    On two cores, what draws on the same kernels on the same one. Nor does each of their processes compile the
     modules that it imports, whatever the environment says.
     """
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
@@ -39,11 +40,12 @@ def pytest_configure(config):
             "tests.bearing_fmu.cold_kernels",
             str(config.cache.mkdir("cold-kernels")),
         ]
-        films = depths.films()
+        first = ["v1", "v1-jfo", "v1-jfo-lemon"]
+        others = [name for name in (*depths.films(), *VARIANTS) if name not in first]
         uncounted = {name: value for name, value in os.environ.items() if name != _COUNTED}
         started = [
             subprocess.Popen([*command, *part], cwd=Path(__file__).parents[1], env=uncounted)
-            for part in (films[:1], films[1:])
+            for part in (first, others)
         ]
         for process in started:
             process.wait()

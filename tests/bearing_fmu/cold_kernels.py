@@ -1,11 +1,13 @@
 """Compile the kernels of depths, and keep the numbers of the process that did.
 
-``python -m tests.bearing_fmu.cold_kernels FOLDER DEPTH...``: before the tests, which all need the kernels, so
-that the one time they are compiled anyway also shows what a process gives that compiles them.
+``python -m tests.bearing_fmu.cold_kernels FOLDER NAME...``: before the tests, which all need the kernels, so
+that the one time they are compiled anyway also shows what a process gives that compiles them. A name is that
+of a depth, or of a variant, which has a kernel of its own.
 """
 
 import hashlib
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numba
@@ -15,8 +17,19 @@ from llvmlite import binding
 from bearing_fmu.film import make_film
 from bearing_fmu.kernels import compiled
 from bearing_fmu.parameters import BearingParameters
+from fmus.port.bore import lobes, to_text
+from tests.bearing_fmu.bearings import SPEED, TURBINE
 
 BEARING = BearingParameters(0.3, 0.2, 3e-4, 0.03, 0.0, 2e-6, 1e9, 0.1, 48, 8)
+LEMON = {"bore": to_text(lobes(2, 0.5))}
+JFO = {"boundary": "jfo", "ambient_pressure": 1e5}
+VARIANTS = {
+    "v1-lemon": ("v1", LEMON),
+    "v1-layer": ("v1", {"layer_thickness": 5e-3}),
+    "v1-jfo": ("v1", JFO),
+    "v1-jfo-lemon": ("v1", JFO | LEMON),
+    "v2-lemon": ("v2", LEMON),
+}
 
 
 def path_of(folder: Path, depth: str, how: str) -> Path:
@@ -43,9 +56,13 @@ def responses(depth: str) -> tuple[np.ndarray, bool]:
     return rows, bool(film.solver.kernel.stats.cache_misses)
 
 
-def main(folder: str, *depths: str) -> None:
-    """Keep the numbers of these depths."""
-    for depth in depths:
+def main(folder: str, *names: str) -> None:
+    """Keep the numbers of these depths; compile these variants."""
+    for depth in names:
+        if depth in VARIANTS:
+            basis, changes = VARIANTS[depth]
+            make_film(basis, replace(TURBINE, **changes)).respond([1e-4, -2e-4, 0.0, 0.0], [0.0] * 4, SPEED)
+            continue
         rows, cold = responses(depth)
         np.save(path_of(Path(folder), depth, "compiled" if cold else "found"), rows)
 
