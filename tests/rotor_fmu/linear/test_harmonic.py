@@ -105,7 +105,11 @@ def test_report_as_text(reports):
 
 
 def test_a_sharp_resonance_is_found_between_speeds_of_a_grid():
-    """The small shaft, undamped, on light bearings; solved otherwise: 7456 um at 23.038 Hz."""
+    """The small shaft, undamped, on light bearings, for which 7456 um at 23.038 Hz are given.
+
+    The bearings themselves are not: stiffness and damping are the round numbers that give about these.
+    What stands for itself is that no speed nearby gives more, and the grid alone gives far less.
+    """
     train = replace(load_train("small"), rayleigh_alpha=0.0, rayleigh_beta=0.0)
     shaft, bearings = assemble(train), springs(5e8, 5e8, 2e4, 2e4)
     unbalance = train.nominal_unbalance * np.exp(1j * np.array([w.unbalance_phase for w in train.wheels]))
