@@ -40,12 +40,13 @@ CIRCLES: set[tuple[str, str]] = set()
 LONG_FILES: set[str] = set()
 LONG_FUNCTIONS: set[str] = set()
 
-# Data types and how files of them are read, and the linear analysis of the shaft: eigenvalues have no time
-# for a unit to step in.
+# Data types and how files of them are read, and what has no time for a unit to step in:
+# the linear analysis of the shaft, the static one of a bearing.
 OF_PHYSICS_FOR_THE_MASTER = {
     "bearing_fmu.depths",
     "bearing_fmu.film_map",  # a picture: what a unit does not give
     "bearing_fmu.recipe",
+    "bearing_fmu.static.curves",
     "rotor_fmu.recipe",
     "rotor_fmu.train.train",
     "rotor_fmu.train.file",

@@ -78,6 +78,12 @@ HARMONIC_HELP = (
     "of the bearings, and amplitude and phase at the probes of each bearing (Bode diagram). Films are solved "
     "anew at every speed; speeds are close where resonances are sharp."
 )
+BEARING_HELP = (
+    "One bearing on its own, every depth side by side: what a film of this shape can do.\n\n"
+    "Static curves over the eccentricity (Sommerfeld number, attitude angle, side flow, friction, "
+    "temperature rise, largest pressure); stiffness and damping over Sommerfeld number and speed; the speed "
+    "up to which a rigid rotor is stable; the pressure over the film as a picture. No FMU is built."
+)
 REDUCTIONS_HELP = (
     "What a reduction costs: each beside the unreduced train.\n\n"
     "Largest errors of free-free frequencies, of eigenvalues on the films, of static bearing loads and of "
@@ -155,12 +161,45 @@ class HarmonicOptions(OverSpeedOptions):
     ] = None  # fmt: skip
 
 
+@dataclass(frozen=True)
+class BearingOptions:
+    """Options of bearing."""
+
+    source: Source = "turbine"
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="Of the bearing; by default the first.")
+    ] = None
+    depth: Annotated[
+        list[Depth] | None,
+        typer.Option(
+            metavar=DEPTH_CHOICE,
+            parser=one_of(Depth, "--depth"),
+            help="Repeatable; by default all with a film.",
+        ),
+    ] = None
+    speed: Annotated[
+        float | None,
+        typer.Option(metavar="HZ", min=0.01, max=5000.0, help="Speed of rotation; by default the rated one."),
+    ] = None
+    load: Annotated[
+        float | None,
+        typer.Option(metavar="N", min=1e-3, help="Against gravity; by default what the train puts on it."),
+    ] = None
+    out: Out = None
+    formats: FigureFormats = None
+
+    def request(self) -> LinearRequest:
+        """What is asked for."""
+        return LinearOptions(self.source, out=self.out).request("bearing", self.formats)
+
+
 def register(app: typer.Typer) -> None:
     """Add the commands."""
     _add(app, "campbell", CAMPBELL_HELP, "campbell turbine --supported", CampbellOptions, campbell)
     _add(app, "modes", MODES_HELP, "modes small --count 6", ModesOptions, modes)
     _add(app, "stability", STABILITY_HELP, "stability small --depth v2", OverSpeedOptions, stability)
     _add(app, "harmonic", HARMONIC_HELP, "harmonic paper --depth v2 --to 30", HarmonicOptions, harmonic)
+    _add(app, "bearing", BEARING_HELP, "bearing small front --depth v1", BearingOptions, bearing)
     _add(app, "reductions", REDUCTIONS_HELP, "reductions turbine", LinearOptions, reductions)
 
 
@@ -194,6 +233,16 @@ def harmonic(options: HarmonicOptions) -> int:
 
     request = options.request("harmonic", options.formats)
     return run(request, _console(), highest=options.highest, probes=options.probes or [45.0, 135.0])
+
+
+def bearing(options: BearingOptions) -> int:
+    """One bearing on its own, see `BEARING_HELP`."""
+    from orchestrator.commands.bearing import run
+
+    names = [str(depth) for depth in options.depth or ()]
+    return run(
+        options.request(), _console(), name=options.name, depths=names, hertz=options.speed, load=options.load
+    )
 
 
 def reductions(options: LinearOptions) -> int:

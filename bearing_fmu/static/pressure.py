@@ -1,0 +1,94 @@
+"""Pressure over the film, and the oil that leaves it at the ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.film import Film
+from bearing_fmu.films.tilted.depth import SOLVER
+from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.grid import COS, METRIC, SIN
+from bearing_fmu.outputs import INPUTS, OUTPUTS
+from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import OPEN
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PressureMap:
+    """The film of one state on its grid.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (m,)
+        From x to y, rad, ascending from -pi on.
+    z : ndarray, shape (n,)
+        m, ends included.
+    pressure : ndarray, shape (m, n)
+        Over the cavity, 0 where the film is ruptured, Pa.
+    side_flow : float
+        Oil pressed out at both ends, m3/s.
+    """
+
+    angle: Floats
+    z: Floats
+    pressure: Floats
+    side_flow: float
+
+
+def pressure_map(
+    parameters: BearingParameters, q: Floats, v: Floats, speed: float, *, fed_at: int | None = None
+) -> PressureMap:
+    """Solve Reynolds' equation as V1 does, and as V2 where there is no tilt, and keep the pressure.
+
+    Parameters
+    ----------
+    parameters : BearingParameters
+        On a rigid bore.
+    q, v : ndarray, shape (4,)
+        Position and velocity in the bore, m and rad.
+    speed : float
+        rad/s.
+    fed_at : int, optional
+        Column of the grid that is held at the cavity's pressure, as the line of the widest gap is in tables.
+
+    Raises
+    ------
+    FilmFailure
+        The state has no film.
+    """
+    film = Film(SOLVER, replace(parameters, layer_thickness=0.0))
+    space, data = film.take()
+    work = data[-2]
+    if fed_at is not None:
+        work.held[:, fed_at] = 2.0
+    inputs = np.zeros(INPUTS)
+    inputs[:4], inputs[4:8], inputs[16] = q, v, speed
+    status = film._kernel(inputs, film.offset, np.zeros(OUTPUTS), *data)
+    if status:
+        raise film.failure(status, inputs, film.offset)
+    m, n = parameters.columns, parameters.rows
+    unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
+    pressure = np.zeros((m, n + 2))
+    pressure[:, :n] = unit * work.pressures[0, :n, :m].T
+    pressure = np.maximum(pressure + parameters.ambient_pressure, 0.0)
+    columns = work.rings[0]
+    outwards = -work.pressures[0, 3 * n : 3 * n + 2, :m] / axial_basis(n).stretch[-2:, None]
+    outwards[0] *= -1.0
+    open_ = work.column[OPEN, n : n + 2, :m]
+    flow = float((np.maximum(outwards, 0.0) * open_**3 * columns[METRIC]).sum()) * 2.0 * np.pi / m
+    flow *= parameters.clearance * parameters.radius**3 / parameters.width
+    film.bring_back(space)
+    angle = np.arctan2(columns[SIN], columns[COS])
+    around, along = np.argsort(angle), np.argsort(work.nodes)
+    z = 0.5 * parameters.width * work.nodes[along]
+    return PressureMap(angle[around], z, pressure[np.ix_(around, along)], flow)
+
+
+def short_side_flow(parameters: BearingParameters, eccentricity: float, speed: float) -> float:
+    """Oil pressed out of a short plain bearing without ambient pressure, m3/s (Ocvirk 1952): C b w R e."""
+    return parameters.clearance * parameters.width * abs(speed) * parameters.radius * eccentricity

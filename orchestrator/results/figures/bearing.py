@@ -1,0 +1,145 @@
+"""One bearing on its own: static curves, coefficients, pressure; every depth in its colour."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from orchestrator.results.figures import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_CURVES = (
+    ("sommerfeld", 1.0, "Sommerfeld number [1]", True),
+    ("attitude", 1.0, "angle from load to journal [deg]", False),
+    ("side_flow", 1e3, "oil pressed out at the ends [l/s]", False),
+    ("friction", 1.0, "friction coefficient / psi [1]", True),
+    ("temperature_rise", 1.0, "temperature rise of this oil [K]", True),
+    ("p_max", 1e-6, "largest pressure [MPa]", True),
+)
+_ENTRIES = (("Fx", "x", "-"), ("Fx", "y", "--"), ("Fy", "x", ":"), ("Fy", "y", "-."))
+_WIDEST = 3.4
+
+
+def _lines(data: xr.Dataset) -> list[tuple[str, str, float]]:
+    """Depths with colour and width: where they coincide, the later lies narrower on the earlier."""
+    names = [str(name) for name in data["depth"].values]
+    return [(name, style.colour_of(name), max(_WIDEST - 0.8 * k, 0.9)) for k, name in enumerate(names)]
+
+
+def curves_figure(curves: xr.Dataset, title: str, sommerfeld: float) -> Figure:
+    """Figures of the bearing over the eccentricity.
+
+    Parameters
+    ----------
+    curves : xarray.Dataset
+        From `orchestrator.linear.bearing`.
+    title : str
+        The bearing.
+    sommerfeld : float
+        Of its load, which is marked.
+    """
+    figure = style.new_figure(13.0, 7.4, "Bearing under static load", title)
+    panels = figure.subplots(2, 3).ravel()
+    for axes, (name, scale, label, logarithmic) in zip(panels, _CURVES, strict=True):
+        for depth, colour, width in _lines(curves):
+            line = curves.sel(depth=depth)
+            over = line["eccentricity"].values
+            values = np.broadcast_to(scale * line[name].values, over.shape)
+            axes.plot(over, values, color=colour, linewidth=width, label=style.depth_name(depth))
+            at = np.interp(np.log(sommerfeld), np.log(line["sommerfeld"].values), np.arange(len(over)))
+            place = [np.interp(at, np.arange(len(over)), x) for x in (over, values)]
+            axes.plot(*place, "o", color=colour, markersize=5.0, markeredgecolor="#222222")
+        if logarithmic:
+            axes.set_yscale("log")
+        axes.set_xlim(0.0, 1.0)
+        axes.set_xlabel("relative eccentricity [1]")
+        axes.set_ylabel(label)
+        style.dress(axes)
+    figure.legend(
+        *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, frameon=False,
+        fontsize=style.FONT, title="dots: under the load of the bearing", title_fontsize=style.FONT,
+    )  # fmt: skip
+    return figure
+
+
+def coefficients_figure(curves: xr.Dataset, over_speed: xr.Dataset, title: str, sommerfeld: float) -> Figure:
+    """Stiffness, damping and threshold over the Sommerfeld number and over the speed under the load."""
+    figure = style.new_figure(13.0, 8.6, "Stiffness and damping of the film", title)
+    panels = figure.subplots(2, 3)
+    clearance, speed = float(curves.attrs["clearance"]), float(curves.attrs["speed"])
+    so = curves["sommerfeld"].values
+    for axes, name, factor in ((panels[0, 0], "stiffness", 1.0), (panels[0, 1], "damping", speed)):
+        _entries(axes, curves, name, "sommerfeld", factor * clearance / (so * curves.attrs["unit_load"]))
+        symbol = "K C / W" if name == "stiffness" else "C C ω / W"
+        axes.set_ylabel(f"{symbol} [1]")
+    for axes, name, factor, unit in (
+        (panels[1, 0], "stiffness", 1e-9, "stiffness [GN/m]"),
+        (panels[1, 1], "damping", 1e-6, "damping [MN s/m]"),
+    ):
+        _entries(axes, over_speed, name, "rotation", np.full(over_speed.sizes["rotation"], factor))
+        axes.set_ylabel(unit)
+    for depth, colour, width in _lines(curves):
+        values = curves["threshold"].sel(depth=depth).values
+        shown = np.where(np.isfinite(values), values, np.nan)
+        panels[0, 2].loglog(so, shown, color=colour, linewidth=width, label=style.depth_name(depth))
+        line = over_speed.sel(depth=depth)
+        panels[1, 2].plot(line["rotation"].values, 1e6 * line["h_min"].values, color=colour, linewidth=width)
+    panels[0, 2].set_ylabel("threshold of a rigid rotor, ω √(C/g) [1]")
+    panels[0, 2].set_title(
+        "stable below; above the last point stable at any speed", fontsize=style.FONT, loc="left"
+    )
+    panels[1, 2].set_ylabel("least gap [µm]")
+    for axes in panels[0]:
+        axes.axvline(sommerfeld, color=style.EVENT, linewidth=0.9, linestyle=":")
+        axes.set_xlabel("Sommerfeld number [1]")
+        axes.set_xlim(so[0], so[-1])
+        style.dress(axes)
+    for axes in panels[1]:
+        axes.set_xlabel("speed of rotation [Hz], under the load of the bearing")
+        style.dress(axes)
+    depths = panels[0, 2].get_legend_handles_labels()
+    figure.legend(*depths, loc="outside lower center", ncols=4, frameon=False, fontsize=style.FONT)
+    return figure
+
+
+def _entries(axes: Axes, data: xr.Dataset, name: str, over: str, scale: np.ndarray) -> None:
+    """The four entries of a matrix at every depth."""
+    for depth, colour, width in _lines(data):
+        for wrench, move, dashes in _ENTRIES:
+            values = scale * data[name].sel(depth=depth, wrench=wrench, displacement=move).values
+            axes.plot(
+                data[over].values, values, color=colour, linewidth=max(width - 1.2, 0.8), linestyle=dashes
+            )
+    if over == "sommerfeld":
+        axes.set_xscale("log")
+        axes.set_yscale("symlog", linthresh=1.0)
+    for wrench, move, dashes in _ENTRIES:
+        axes.plot([], [], color="#444444", linestyle=dashes, label=f"{wrench[1]}{move}")
+    axes.legend(frameon=False, fontsize=style.FONT - 1, ncols=4, loc="upper center")
+
+
+def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray) -> Figure:
+    """The film unrolled: pressure over angle and width."""
+    figure = style.new_figure(11.0, 4.6, "Pressure over the film, as V1 solves it, under the load", title)
+    axes = figure.subplots()
+    angle, z = pressure["angle"].values, 1e3 * pressure["z"].values
+    # the ring is closed, so that nothing is missing where the angle begins anew
+    around = np.concatenate((angle[-1:] - 360.0, angle, angle[:1] + 360.0))
+    values = 1e-6 * pressure["pressure"].values[np.r_[-1, : angle.size, 0]]
+    top = max(float(values.max()), 1e-9)
+    levels = np.linspace(0.0, top, 25)
+    filled = axes.contourf(around, z, values.T, levels=levels, cmap="viridis")
+    axes.contour(around, z, values.T, levels=levels[4::4], colors="#FFFFFF", linewidths=0.5)
+    figure.colorbar(filled, ax=axes, label="pressure [MPa]", ticks=np.linspace(0.0, top, 6), format="%.3g")
+    axes.axvline(np.degrees(np.arctan2(load[1], load[0])), color=style.EVENT, linewidth=1.2, linestyle=":")
+    axes.set_title("dotted: direction of the load", fontsize=style.FONT, loc="left")
+    axes.set_xlim(-180.0, 180.0)
+    axes.set_xticks(np.arange(-180, 181, 45))
+    axes.set_xlabel("angle from x (sideways) to y (up) [deg]")
+    axes.set_ylabel("axial position [mm]")
+    return figure

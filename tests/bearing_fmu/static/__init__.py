@@ -1,0 +1,1 @@
+"""Static investigations of a bearing."""

@@ -1,0 +1,69 @@
+"""The command bearing: data, tables and figures of one bearing at every depth."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+from rich.console import Console
+
+from orchestrator.commands.bearing import run
+from orchestrator.errors import OrchestratorError
+from orchestrator.linear.case import LinearRequest
+from rotor_fmu.linear.analysis import target_loads
+from rotor_fmu.train.file import load_train
+from tests.faults import fault
+
+LEMON = "tests/examples/lemon"
+
+
+def investigate(source, folder, console=None, **options):
+    request = LinearRequest("bearing", source, None, folder, folder, ("png",), False)
+    given = {"name": None, "depths": (), "hertz": None, "load": None} | options
+    return run(request, console or Console(quiet=True), **given)
+
+
+def test_every_depth_of_a_bearing_side_by_side(tmp_path):
+    folder = tmp_path / "out"
+    assert investigate("small", folder, depths=("v2", "v3")) == 0
+    names = (
+        "curves.png",
+        "coefficients.png",
+        "pressure.png",
+        "bearing.csv",
+        "over-speed.csv",
+        "pressure.csv",
+    )
+    assert all((folder / name).stat().st_size > 1000 for name in names)
+    curves = xr.load_dataset(folder / "bearing.nc")
+    assert list(curves["depth"].values) == ["v2", "v3"]
+    assert np.all(np.diff(curves["eccentricity"].values, axis=1) > 0.0)
+    train = load_train("small")
+    running = xr.load_dataset(folder / "over-speed.nc").sel(depth="v2")
+    rated = running.sel(rotation=50.0, method="nearest")
+    load = float(target_loads(train)[0])
+    assert float(rated["sommerfeld"]) == pytest.approx(train.bearings[0].sommerfeld(load, train.speed))
+    text = (folder / "bearing.txt").read_text()
+    assert "front of small" in text and "Kxx [GN/m]" in text
+
+
+def test_a_depth_without_the_bore_is_left_out_and_told(tmp_path):
+    folder = tmp_path / "out"
+    assert investigate(LEMON, folder, name="rear", depths=("v2", "v3"), hertz=40.0, load=1e4) == 0
+    text = (folder / "bearing.txt").read_text()
+    assert "v3 left out: bearing parameter bore: the short film knows the plain bore only" in text
+    assert "rear of lemon" in text and "40 Hz, 10 kN" in text
+
+
+@fault(
+    "input",
+    "a bearing that is not there, or that no depth asked for can have",
+    "exit 2; the names that there are, or why each depth is left out",
+    guard="orchestrator.commands.bearing:_seat",
+)
+def test_no_bearing(tmp_path):
+    with pytest.raises(OrchestratorError, match="bearing middle: no such bearing; allowed are front, rear"):
+        investigate("small", tmp_path / "out", name="middle")
+    with pytest.raises(OrchestratorError, match="v3: bearing parameter bore: the short film"):
+        investigate(LEMON, tmp_path / "out", depths=("v3",))
+    assert not (tmp_path / "out").exists()
