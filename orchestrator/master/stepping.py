@@ -27,7 +27,7 @@ from orchestrator.master.system import System
 from orchestrator.outcome import Outcome
 
 DEEPEST = 10
-"""Halvings of a macro step at most; the shortest step is 1/1024 of it."""
+"""Halvings of the first step at most; the shortest step is 1/1024 of it."""
 
 CALM = 1.0 / 8.0
 """Share of the tolerance below which the error, of second order in the step, allows twice the step."""
@@ -129,6 +129,8 @@ class Stepper:
         Largest relative error of a step; None accepts every step that the units accept.
     on_step : callable
         Called after each accepted step with its start, its end and its `Advance`.
+    level : int
+        Halvings of the interval to begin with.
 
     Attributes
     ----------
@@ -146,6 +148,7 @@ class Stepper:
         scheme: Coupling,
         tolerance: float | None,
         on_step: Callable[[float, float, Advance], None],
+        level: int = 0,
     ) -> None:
         if (tolerance is not None or scheme.iterates) and not scheme.many_rates:
             system.rollback.require(f"coupling {scheme.name}" if scheme.iterates else "a tolerance")
@@ -154,7 +157,7 @@ class Stepper:
         self._before = system.motion.copy()
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
-        self.level = 0
+        self.level, self._deepest = level, level + DEEPEST
 
     def cross(self, start: float, end: float, length: float) -> None:
         """Carry the system over an interval; its length is given besides, free of rounding.
@@ -172,7 +175,7 @@ class Stepper:
                 start + done * step, end if last else start + (done + 1) * step, step, last
             )
             done += verdict is not Verdict.TAKEN_BACK
-            if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < DEEPEST:
+            if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < self._deepest:
                 self.level += 1
                 done *= 2
             elif verdict is Verdict.EASY and self.level and done % 2 == 0:
@@ -195,7 +198,7 @@ class Stepper:
                 raise
             self._take_back()
             self.counts.discarded += 1
-            if self.level == DEEPEST:
+            if self.level == self._deepest:
                 raise
             return Verdict.TAKEN_BACK
         bears = self.scheme.many_rates and not self._system.rollback.possible
@@ -203,7 +206,7 @@ class Stepper:
             if self._system.rollback.possible:
                 self._take_back()
             self.counts.rejected += 1
-            if self.level == DEEPEST or (self._tolerance is None and not self.scheme.iterates):
+            if self.level == self._deepest or (self._tolerance is None and not self.scheme.iterates):
                 raise problem
             return Verdict.TAKEN_BACK
         self._count(advance, step, sizes)

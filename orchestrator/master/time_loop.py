@@ -149,8 +149,7 @@ def run(
         for observer in reversed(observers):
             observer.stop(step, time, stepper)
 
-    stepper = Stepper(system, scheme, course.tolerance, on_step)
-    stepper.level = course.level
+    stepper = Stepper(system, scheme, course.tolerance, on_step, course.level)
     try:
         if resume is not None:
             first = resume(stepper)
