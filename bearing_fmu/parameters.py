@@ -48,6 +48,10 @@ class BearingParameters:
         Of the oil, kg/m3; of turbulent films.
     feed_pressure : float
         Pressure in the grooves, over the cavity pressure, Pa.
+    feed_content, feed_flow : float
+        Of mass-conserving films: share of the gap that oil fills in the grooves, below 1 a starved supply,
+        which holds the cavity's pressure; flow into all grooves together, m3/s, from which their content
+        follows, 0 where they take what they need.
     bore : str
         Its arcs, see `fmus.port.bore.from_text`.
     layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
@@ -80,6 +84,9 @@ class BearingParameters:
     layer_poisson: float = port.default_of("layer_poisson")
     layer_hardness: float = port.default_of("layer_hardness")
 
+    feed_content: float = port.default_of("feed_content")
+    feed_flow: float = port.default_of("feed_flow")
+
     def __post_init__(self) -> None:
         for key in port.BEARING_KEYS:
             value, variable = getattr(self, key), port.bearing_parameter(key)
@@ -91,6 +98,12 @@ class BearingParameters:
             raise ValueError(f"bearing parameter bore: {error}") from None
         if self.has_layer:
             self._check_layer()
+        starved = self.feed_content < 1.0 or self.feed_flow > 0.0
+        if starved and (self.boundary != "jfo" or not self.arcs):
+            raise ValueError(
+                "bearing parameters feed_content < 1 and feed_flow > 0: allowed with boundary = 'jfo' and "
+                "grooves in the bore only"
+            )
         if self.boundary == "jfo" and not (self.arcs or self.ambient_pressure > 0.0):
             raise ValueError(
                 "bearing parameter boundary = 'jfo': oil must come from somewhere; allowed with grooves in "

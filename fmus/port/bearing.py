@@ -122,6 +122,25 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         PLAIN,
         kind="String",
     ),
+    Variable(
+        "feed_content",
+        "parameter",
+        "",
+        "share of the gap that oil fills in the grooves; below 1 a starved supply, of a mass-conserving film",
+        1.0,
+        minimum=0.0,
+        maximum=1.0,
+        nominal=1.0,
+    ),
+    Variable(
+        "feed_flow",
+        "parameter",
+        "m3/s",
+        "flow into all grooves of a mass-conserving film; 0: as much as they take",
+        0.0,
+        minimum=0.0,
+        nominal=1e-3,
+    ),
     *(
         Variable(f"layer.{name}", "parameter", unit, text, start, minimum=0.0, nominal=nominal, above=above)
         for name, unit, text, start, nominal, above in (
@@ -177,6 +196,8 @@ BEARING_KEYS: dict[str, str] = {
     "density": "density",
     "feed_pressure": "feed_pressure",
     "bore": "bore",
+    "feed_content": "feed_content",
+    "feed_flow": "feed_flow",
     "layer_thickness": "layer.thickness",
     "layer_modulus": "layer.modulus",
     "layer_poisson": "layer.poisson",

@@ -160,6 +160,13 @@ def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
                 f"film.boundary = {boundary!r}; allowed at depth {depth.name} is "
                 f"{' or '.join(map(repr, depth.boundaries))}",
             )
+    for seat in train.bearings if boundary == "jfo" else ():
+        if seat.has_film and not seat.has_grooves and not seat.ambient_pressure > 0.0:
+            yield (
+                ("film", "boundary"),
+                f"film.boundary = {boundary!r}; allowed with oil at each bearing; {seat.name} has neither "
+                "grooves nor an ambient_pressure > 0",
+            )
 
 
 def event_problems(scenario: Scenario) -> Iterator[Problem]:

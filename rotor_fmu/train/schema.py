@@ -149,6 +149,8 @@ class BearingEntry(Placed):
     friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
     density: float = within(100.0, 3e3, "kg/m3; did you give t/m3?", port.default_of("density"))
     feed_pressure: float = within(0.0, 1e8, _PRESSURE, 0.0)
+    feed_content: float = Field(port.default_of("feed_content"), ge=0.0, le=1.0)
+    feed_flow: float = within(0.0, 10.0, "m3/s", port.default_of("feed_flow"))
     bore: str = bores.PLAIN
     preload: float = within(0.0, 0.95, "", 0.0)
     offset: float | None = within(0.0, 1.0, "", None)

@@ -52,6 +52,11 @@ class FoundationMode:
     damping_ratio: float
     shape: tuple[float, ...]
 
+    @property
+    def has_grooves(self) -> bool:
+        """Whether its bore has grooves, from which oil comes."""
+        return self.bore != PLAIN
+
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> FoundationMode:
         """A mode of what `dataclasses.asdict` makes of one, through JSON."""
@@ -80,6 +85,9 @@ class BearingSeat:
         Of the oil, for turbulent films [kg/m3].
     feed_pressure : float
         Pressure in the grooves, over the cavity [Pa].
+    feed_content, feed_flow : float
+        Starved supply of a mass-conserving film: content of the grooves; flow into all [m3/s], 0: what
+        they take.
     bore : str
         Its arcs, see `fmus.port.bore.from_text`.
     layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
@@ -112,6 +120,8 @@ class BearingSeat:
     friction: float = port.default_of("friction")
     density: float = port.default_of("density")
     feed_pressure: float = 0.0
+    feed_content: float = port.default_of("feed_content")
+    feed_flow: float = port.default_of("feed_flow")
     bore: str = PLAIN
     layer_thickness: float = port.default_of("layer_thickness")
     layer_modulus: float = port.default_of("layer_modulus")

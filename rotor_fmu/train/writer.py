@@ -19,7 +19,7 @@ Placed: TypeAlias = Coupling | BearingSeat | Wheel | LumpedMass
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
 _MORE = ",rear_outer_diameter,rear_inner_diameter,counts,z"
 FOUNDATION = "foundation.csv"
-_SINCE = ("height", "sleeve", "feed_pressure", "bore", "pedestal")
+_SINCE = ("height", "sleeve", "feed_pressure", "feed_content", "feed_flow", "bore", "pedestal")
 """Keys that are written where they differ from their defaults."""
 
 

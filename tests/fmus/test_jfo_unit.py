@@ -11,6 +11,12 @@ from orchestrator.master.rollback import forgets
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
 INPUTS = [v.name for v in port.BEARING_INPUTS]
 STEP = 1e-4
+BEARING = {
+    "film.boundary": "jfo",
+    "bore": "[[0.2, 2.94, 0, 0], [3.34, 6.08, 0, 0]]",
+    "film.columns": 24,
+    "film.rows": 4,
+}
 
 
 def place(k: int) -> dict[str, float]:
@@ -37,9 +43,7 @@ def go(unit, first: int, last: int) -> list[list[float]]:
 def units(hosts):
     opened = [hosts["bearing_v1.fmu"].open(name) for name in ("one", "other")]
     for unit in opened:
-        unit.start(
-            {"film.boundary": "jfo", "ambient_pressure": 1e5, "film.columns": 24, "film.rows": 4} | place(0)
-        )
+        unit.start(BEARING | place(0))
     yield opened
     for unit in opened:
         unit.slave.freeInstance()

@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.films.jfo.workspace import KEPT, OWED, PAID, STEP, VOID, VOLUME, JfoFilm
+from bearing_fmu.films.jfo.workspace import FACES, KEPT, OWED, PAID, STEP, VOID, VOLUME, JfoFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.grid import COS, SIN
 
@@ -64,8 +64,8 @@ def bring_over(jfo: JfoFilm) -> None:
     """
     n, m = jfo.volumes.shape
     old, new = jfo.edges[0], jfo.edges[1]
-    then = jfo.then[m:].reshape((KEPT, n, m))
-    old[:m] = jfo.then[:m]
+    then = jfo.then[FACES + m :].reshape((KEPT, n, m))
+    old[:m] = jfo.then[FACES : FACES + m]
     old[m] = old[0] + _TURN
     # the faces of now in the turn of those of then; the column between the faces k - 1 and k is k
     shift = _TURN * np.floor((new[0] - old[0]) / _TURN)
@@ -115,9 +115,9 @@ def _note_density(jfo: JfoFilm, then: Floats, k: int, face: int) -> None:
 def remember(jfo: JfoFilm) -> None:
     """Write what is remembered after the step."""
     n, m = jfo.volumes.shape
-    now = jfo.now[m:].reshape((KEPT, n, m))
+    now = jfo.now[FACES + m :].reshape((KEPT, n, m))
     dt, paid = jfo.time[STEP], jfo.time[PAID]
-    jfo.now[:m] = jfo.edges[1, :m]
+    jfo.now[FACES : FACES + m] = jfo.edges[1, :m]
     for j in range(n):
         content, held = jfo.net.content[j], jfo.net.held[j]
         volume, void, owed = jfo.before[VOLUME, j], jfo.before[VOID, j], jfo.before[OWED, j]

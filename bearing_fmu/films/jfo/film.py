@@ -14,16 +14,19 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.jfo.network import balance
 from bearing_fmu.films.jfo.reynolds import conclude, set_up
 from bearing_fmu.films.jfo.tangent import add_jfo_tangent
-from bearing_fmu.films.jfo.workspace import STEP, JfoFilm, jfo_film
+from bearing_fmu.films.jfo.workspace import GROOVE, STEP, JfoFilm, jfo_film
 from bearing_fmu.films.tilted.workspace import STOCK
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.outputs import OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
-from bearing_fmu.status import OK
+from bearing_fmu.status import NOT_CONVERGED, OK
 from bearing_fmu.stock import bring_back
 
 Floats = NDArray[np.float64]
+
+_FILLINGS = 300
+_EVEN = 1e-9
 
 
 @stage
@@ -43,7 +46,9 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> JfoFilm:
     bore = bore_of(parameters.arcs, parameters.columns)
     held = np.zeros(0, dtype=np.int64) if bore is None else bore.held
     aspect = parameters.diameter / parameters.width
-    return jfo_film(parameters.columns, parameters.rows, aspect, held, 1.0, space)
+    unit = 0.25 * parameters.clearance * parameters.radius * parameters.width
+    supply = parameters.feed_content, parameters.feed_flow / unit
+    return jfo_film(parameters.columns, parameters.rows, aspect, held, supply, space)
 
 
 SOLVER = Solver(
@@ -83,9 +88,26 @@ class ConservingFilm(Film):
         try:
             jfo: JfoFilm = data[3]
             jfo.time[STEP] = dt if state.size else 0.0
-            if state.size:
+            jfo.supply[0] = self.parameters.feed_content
+            if state.size and dt > 0.0:
                 jfo.then[:] = state
+                if jfo.supply[1] > 0.0:
+                    jfo.supply[0] = state[GROOVE]
             status = self._kernel(inputs, offset, out, *data)
+            if jfo.time[STEP] == 0.0 and jfo.supply[1] > 0.0:
+                status = self._fill_grooves(status, inputs, offset, out, data)
             return status, jfo.now.copy()
         finally:
             bring_back(self._free, space)
+
+    def _fill_grooves(
+        self, status: int, inputs: Floats, offset: Floats, out: Floats, data: tuple[Any, ...]
+    ) -> int:
+        """Repeat an evaluation in balance until the content of the grooves belongs to their feed."""
+        jfo: JfoFilm = data[3]
+        for _ in range(_FILLINGS):
+            before, jfo.supply[0] = jfo.supply[0], jfo.now[GROOVE]
+            if status != OK or abs(jfo.supply[0] - before) < _EVEN:
+                return status
+            status = self._kernel(inputs, offset, out, *data)
+        return NOT_CONVERGED

@@ -23,8 +23,20 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.jfo.content import begin_full, bring_over, face_angles, remember
-from bearing_fmu.films.jfo.network import PRESSURE
-from bearing_fmu.films.jfo.workspace import OWED, PAID, RATE, STEP, VOID, VOLUME, JfoFilm
+from bearing_fmu.films.jfo.network import FREE, PRESSURE
+from bearing_fmu.films.jfo.workspace import (
+    ENDS,
+    FEED,
+    FULL,
+    GROOVE,
+    OWED,
+    PAID,
+    RATE,
+    STEP,
+    VOID,
+    VOLUME,
+    JfoFilm,
+)
 from bearing_fmu.films.tilted.grooves import pressure_drag
 from bearing_fmu.films.tilted.reynolds import shape_gap, summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
@@ -101,8 +113,8 @@ def _set_flows(jfo: JfoFilm, v: Floats, speed: float, ambient: float, feed: floa
             net.gained[j, i] = (rate * jfo.volumes[j, i] + 2.0 * max(-opens, 0.0)) * had
             net.gained[j, i] += paying * owed[i]
             net.full[j, i] = 1.0 if had > 1.0 - _BRIM else 0.0
-            if held[i] == PRESSURE:
-                net.given[j, i] = feed
+            if held[i] != FREE:
+                net.given[j, i] = feed if held[i] == PRESSURE else jfo.supply[0]
     for j in range(n + 1):
         for i in range(m):
             net.axial[j, i] = jfo.across[CONDUCTANCE, j, i]
@@ -145,6 +157,43 @@ def _integrate(jfo: JfoFilm, bore: Bore, reynolds: float, result: Floats) -> Non
     result[DRAG] = pressure_drag(film, bore)
 
 
+@stage
+def _count_flows(jfo: JfoFilm) -> None:
+    """Flows over the ends and from the grooves, which are closed at their ends; share of full cells.
+
+    Where the flow into the grooves is given, their content after the step is what it and the oil that returns
+    fill of the flow that the wall carries away; beyond that they overflow.
+    """
+    film, net = jfo.film, jfo.net
+    n, m = jfo.volumes.shape
+    ends, fed, carried, full, area = 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(n):
+        pressure, content, held = net.pressure[j], net.content[j], net.held[j]
+        for i in range(m):
+            fore = i + 1 if i + 1 < m else 0
+            part = film.weights[j] * film.rings[0, METRIC, i]
+            area += part
+            full += part * net.full[j, i]
+            here, there = held[i] != FREE, held[fore] != FREE
+            if here != there:
+                wall = net.carried[j, i]
+                flow = -net.around[j, i] * (pressure[fore] - pressure[i])
+                flow += wall * (content[i] if wall > 0.0 else content[fore])
+                fed += flow if here else -flow
+                if here == (wall > 0.0):
+                    carried += abs(wall)
+            if not here and j == 0:
+                ends += net.axial[0, i] * (pressure[i] - net.ends[0])
+            if not here and j == n - 1:
+                ends += net.axial[n, i] * (pressure[i] - net.ends[0])
+    jfo.flows[ENDS], jfo.flows[FEED], jfo.flows[FULL] = ends, fed, full / area
+    filled = jfo.supply[0]
+    if jfo.supply[1] > 0.0 and carried > 0.0:
+        back = jfo.supply[0] * carried - fed
+        filled = min(max((jfo.supply[1] + back) / carried, 0.0), 1.0)
+    jfo.now[GROOVE] = filled
+
+
 @kernel
 def set_up(
     jfo: JfoFilm, bore: Bore, q: Floats, v: Floats, speed: float, ambient: float, feed: float, sigma: float,
@@ -182,4 +231,5 @@ def conclude(jfo: JfoFilm, bore: Bore, reynolds: float, result: Floats) -> None:
             had = 1.0 - jfo.before[VOID, j, i] / jfo.before[VOLUME, j, i]
             jfo.share[j, i] = jfo.net.content[j, i] if jfo.rates[j, i] > 0.0 else had
     _integrate(jfo, bore, reynolds, result)
+    _count_flows(jfo)
     remember(jfo)

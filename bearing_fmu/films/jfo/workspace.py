@@ -18,8 +18,14 @@ Floats = NDArray[np.float64]
 #: What is remembered of a cell: its volume, the void in it, and what is owed to it, see `content`.
 VOLUME, VOID, OWED, KEPT = range(4)
 
+#: Before the cells stand the content of the grooves and the angles of the faces.
+GROOVE, FACES = 0, 1
+
 #: Length of the step in s, 0 for a film in balance; share paid back of what is owed; 2/dt.
 STEP, PAID, RATE = range(3)
+
+#: Flow over the ends, flow from the grooves, share of full cells; flows over C R b/4.
+ENDS, FEED, FULL = range(3)
 
 
 class JfoFilm(NamedTuple):
@@ -37,8 +43,10 @@ class JfoFilm(NamedTuple):
     dense: Floats  #: (2, KEPT, n, m) of it per angle at the faces behind and ahead of each column
     time: Floats  #: (3,) see `STEP`
     edges: Floats  #: (2, m + 1) angles of the faces, then and now
-    then: Floats  #: ((1 + KEPT n) m,) what is remembered from before the step
-    now: Floats  #: ((1 + KEPT n) m,) what is remembered after it
+    then: Floats  #: (FACES + (1 + KEPT n) m,) what is remembered from before the step
+    now: Floats  #: (FACES + (1 + KEPT n) m,) what is remembered after it
+    supply: Floats  #: (2,) content of the grooves; flow into them where that is given, else 0
+    flows: Floats  #: (3,) result: see `ENDS`
     changes: Floats  #: (3, n + 1, m') work space of the tangent
 
 
@@ -76,14 +84,20 @@ def work_space(columns: int, rows: int) -> dict[str, Any]:
         "dense": np.zeros((2, KEPT, n, m)),
         "time": np.zeros(3),
         "edges": np.zeros((2, m + 1)),
-        "then": np.zeros((1 + KEPT * n) * m),
-        "now": np.zeros((1 + KEPT * n) * m),
+        "then": np.zeros(FACES + (1 + KEPT * n) * m),
+        "now": np.zeros(FACES + (1 + KEPT * n) * m),
+        "flows": np.zeros(3),
         "changes": np.zeros((3, n + 1, length)),
     }
 
 
 def jfo_film(
-    columns: int, rows: int, aspect: float, held: NDArray[np.int64], content: float, space: dict[str, Any]
+    columns: int,
+    rows: int,
+    aspect: float,
+    held: NDArray[np.int64],
+    supply: tuple[float, float],
+    space: dict[str, Any],
 ) -> JfoFilm:
     """Prepare a film.
 
@@ -95,19 +109,20 @@ def jfo_film(
         2R/b.
     held : ndarray of int
         Columns in grooves.
-    content : float
-        Of the grooves: 1 where they are full and hold the feed pressure, less where the supply is starved.
+    supply : (float, float)
+        Content of the grooves, 1 where they are full and hold the feed pressure, less where they are starved;
+        flow into them over C R b/4 where that is given and their content follows, else 0.
     space : dict
         Work space of the tilted film.
     """
     own = work_space(columns, rows)
     heights, spans = axial_faces(rows)
     own["net"].held[:] = FREE
-    own["net"].held[:, held] = PRESSURE if content >= 1.0 else CONTENT
-    own["net"].given[:, held] = content
+    own["net"].held[:, held] = PRESSURE if supply[0] >= 1.0 and supply[1] == 0.0 else CONTENT
     return JfoFilm(
         film=tilted_film(columns, rows, aspect, space),
         heights=heights,
         spans=spans / aspect**2,
+        supply=np.array(supply),
         **own,
     )
