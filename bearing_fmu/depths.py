@@ -39,7 +39,7 @@ class Film(Protocol):
 
         Returns
         -------
-        outputs : ndarray, shape (52,)
+        outputs : ndarray, shape (58,)
             In the order of `fmus.port.BEARING_OUTPUTS`.
         state : ndarray
             At the end of the step.

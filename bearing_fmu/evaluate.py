@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.bore import Bore
+from bearing_fmu.bore.bore import Bore, least_gap
 from bearing_fmu.contact.contact import sliding_sense
-from bearing_fmu.contact.slice import CONTACT_RESULTS
+from bearing_fmu.contact.slice import CONTACT_RESULTS, LOAD, PRESSURE, largest_pressure
 from bearing_fmu.kernels.compiled import variant
 from bearing_fmu.outputs import OUTPUTS, STATE, relative_state, write_outputs
 from bearing_fmu.result import RESULTS
@@ -69,6 +69,9 @@ def port_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
         contact[:] = 0.0
         grip = scales.friction * sliding_sense(speed, scales.radius)
         touch(bore, scales, table, state[:4], grip, contact)
+        if contact[LOAD] > 0.0:
+            gap = scales.clearance * least_gap(bore, q)[0]
+            contact[PRESSURE] = largest_pressure(bore, scales, table, gap)
         return write_outputs(bore, scales, inputs, state, result, contact, draft, out)
 
     return variant(name, evaluate)

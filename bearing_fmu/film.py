@@ -28,6 +28,7 @@ Floats = NDArray[np.float64]
 
 _NO_MEMORY = np.zeros(0)
 _MOST_BOUND = 64
+_LAST = tuple(v.name for v in port.BEARING_OUTPUTS[52:])
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,16 @@ class BearingResponse:
         Relative eccentricity at the mid-plane.
     sommerfeld : float
         So = |F| psi^2 / (b d eta omega); 0 at standstill, where it is not defined.
+    contact_pressure : float
+        Largest solid contact pressure, Pa.
+    overlap : float
+        How deep journal and bore would overlap unloaded, m.
+    wiped, contact_area : float
+        Shares of the bore in which the contact reaches the hardness, and in which solids really touch.
+    oil_flow : float
+        Flow out at both ends, m3/s.
+    oil_temperature : float
+        Supply temperature and half the rise by friction power over oil flow, K.
     """
 
     wrench: Floats
@@ -99,6 +110,12 @@ class BearingResponse:
     friction_power: float
     eccentricity: float
     sommerfeld: float
+    contact_pressure: float
+    overlap: float
+    wiped: float
+    contact_area: float
+    oil_flow: float
+    oil_temperature: float
 
 
 class Film:
@@ -171,7 +188,7 @@ class Film:
             In the order of `fmus.port.BEARING_INPUTS`.
         offset : ndarray, shape (4,), float64
             Bearing centre in the fixed frame: x, y in m, tilts in rad.
-        out : ndarray, shape (52,), float64
+        out : ndarray, shape (58,), float64
             Written in the order of `fmus.port.BEARING_OUTPUTS`; untouched on failure.
 
         Returns
@@ -247,6 +264,7 @@ class Film:
             friction_power=float(gap[9]),
             eccentricity=float(gap[10]),
             sommerfeld=float(gap[11]),
+            **dict(zip(_LAST, gap[12:].tolist(), strict=True)),
         )
 
 

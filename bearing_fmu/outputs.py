@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, least_gap, relative_eccentricity
-from bearing_fmu.contact.slice import FORCE, FORCE_SLOPE, LOAD
+from bearing_fmu.contact.slice import AREA, FORCE, FORCE_SLOPE, LOAD, PRESSURE, WIPED
 from bearing_fmu.kernels.compiled import inner_kernel
-from bearing_fmu.result import DAMPING, DRAG, PEAK, SHEAR, STIFFNESS, WRENCH
+from bearing_fmu.result import DAMPING, DRAG, FLOW, PEAK, SHEAR, STIFFNESS, WRENCH
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, NOT_FINITE, OK
 
@@ -16,7 +16,9 @@ Floats = NDArray[np.float64]
 
 INPUTS, STATE = 17, 12
 # Where the groups of the port's outputs begin.
-OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 52
+OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 58
+#: Largest rise of the temperature that is told, K: a centred journal lets no oil out.
+_HOTTEST = 1e3
 
 
 @inner_kernel
@@ -106,9 +108,9 @@ def write_outputs(
         Film, dimensionless.
     contact : ndarray, shape (CONTACT_RESULTS,)
         Solid contact, SI.
-    draft : ndarray, shape (52,)
+    draft : ndarray, shape (58,)
         Work space.
-    out : ndarray, shape (52,)
+    out : ndarray, shape (58,)
         Port order; untouched where an output is not finite.
 
     Returns
@@ -151,6 +153,14 @@ def write_outputs(
     area = 2.0 * scales.radius * scales.width
     rate = scales.viscosity * abs(speed) * area * (scales.radius / scales.clearance) ** 2
     draft[OUT_GAP + 11] = load / rate if rate > 0.0 else 0.0
+    draft[OUT_GAP + 12] = contact[PRESSURE]
+    draft[OUT_GAP + 13] = max(-least, 0.0) * scales.clearance
+    draft[OUT_GAP + 14] = contact[WIPED] / (np.pi * area)
+    draft[OUT_GAP + 15] = contact[AREA] / (np.pi * area)
+    draft[OUT_GAP + 16] = scales.flow * result[FLOW]
+    power, carried = max(draft[OUT_GAP + 9], 0.0), 2.0 * scales.heat * draft[OUT_GAP + 16]
+    rise = power / carried if power < _HOTTEST * carried else (_HOTTEST if power > 0.0 else 0.0)
+    draft[OUT_GAP + 17] = scales.supply + rise
     probe = 0.0
     for i in range(OUTPUTS):
         probe += draft[i] * 0.0

@@ -45,7 +45,7 @@ class BearingParameters:
         "laminar", or "constantinescu": flow and friction by the local Reynolds number, see
         `bearing_fmu.films.turbulence`.
     density : float
-        Of the oil, kg/m3; of turbulent films.
+        Of the oil, kg/m3.
     feed_pressure : float
         Pressure in the grooves, over the cavity pressure, Pa.
     feed_content, feed_flow : float
@@ -56,7 +56,9 @@ class BearingParameters:
         Its arcs, see `fmus.port.bore.from_text`.
     layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
         Of the bearing's soft layer: thickness, m, 0 for a rigid bore, Young's modulus, Pa, Poisson's ratio,
-        and hardness, Pa, see `bearing_fmu.contact.layer`.
+        and hardness, Pa, see `bearing_fmu.contact.layer`; the hardness is told from also without a layer.
+    supply_temperature, heat_capacity : float
+        Of the oil, K and J/(kg K); they make the temperature that is told, the viscosity is a constant.
 
     Raises
     ------
@@ -83,6 +85,8 @@ class BearingParameters:
     layer_modulus: float = port.default_of("layer_modulus")
     layer_poisson: float = port.default_of("layer_poisson")
     layer_hardness: float = port.default_of("layer_hardness")
+    supply_temperature: float = port.default_of("supply_temperature")
+    heat_capacity: float = port.default_of("heat_capacity")
 
     feed_content: float = port.default_of("feed_content")
     feed_flow: float = port.default_of("feed_flow")

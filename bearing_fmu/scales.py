@@ -29,6 +29,11 @@ SCALES = np.dtype(
         ("reynolds", np.float64),  # rho R C / eta where the film may be turbulent, else 0; s
         ("contact_first", np.float64),  # first eccentricity of the contact table, m
         ("contact_step", np.float64),  # its spacing, m
+        ("yields", np.float64),  # eccentricity of a slice from which its contact reaches the hardness, m
+        ("hardness", np.float64),  # of the softer metal, Pa
+        ("flow", np.float64),  # C R b / 4, m3
+        ("heat", np.float64),  # heat capacity of the oil by volume, J/(m3 K)
+        ("supply", np.float64),  # temperature of its supply, K
         ("closes", np.int64),  # status where the gap is below the deepest one
         ("aligned", np.int64),  # 1 where tilts are ignored
         ("ruptures", np.int64),  # 1 for Reynolds' condition, 0 for Guembel's
@@ -60,6 +65,11 @@ def scales(parameters: BearingParameters, table: SliceTable, aligned: bool) -> N
         ),
         "contact_first": table.first,
         "contact_step": table.step,
+        "yields": table.yields,
+        "hardness": parameters.layer_hardness,
+        "flow": 0.25 * clearance * radius * parameters.width,
+        "heat": parameters.density * parameters.heat_capacity,
+        "supply": parameters.supply_temperature,
         "closes": FilmStatus.TOO_DEEP if parameters.has_contact else FilmStatus.GAP_CLOSED,
         "aligned": aligned,
         "ruptures": parameters.boundary == "reynolds",

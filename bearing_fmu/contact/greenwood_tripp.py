@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.contact.asperities import REACH, asperity_integral
 from bearing_fmu.contact.cubic_spline import interpolate, spline_coefficients
-from bearing_fmu.contact.layer import layered_pressure
+from bearing_fmu.contact.layer import YIELDING, bounded_pressure, layered_pressure
 from bearing_fmu.parameters import BearingParameters
 
 Floats = NDArray[np.float64]
@@ -43,13 +43,17 @@ class SliceTable(NamedTuple):
     ----------
     first, step : float
         First eccentricity of the table and its spacing, m.
-    coefficients : ndarray, shape (intervals, 2, 4)
-        Ascending powers of the place in the interval [0, 1] of the radial force R int p_c cos(psi) dpsi
-        and of the normal load R int p_c dpsi, both per width, N/m.
+    yields : float
+        Eccentricity from which the largest pressure reaches the hardness, m.
+    coefficients : ndarray, shape (intervals, 4, 4)
+        Ascending powers of the place in the interval [0, 1] of the radial force R int p_c cos(psi) dpsi and
+        of the normal load R int p_c dpsi, both per width, N/m; of the width that really touches, m; and of
+        the largest pressure, Pa. In a bore of arcs R p_c along one normal alone.
     """
 
     first: float
     step: float
+    yields: float
     coefficients: Floats
 
 
@@ -61,18 +65,18 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     """
     sigma, clearance = parameters.roughness, parameters.clearance
     if not parameters.has_contact:
-        return SliceTable(np.inf, 1.0, np.zeros((1, 2, 4)))
+        return SliceTable(np.inf, 1.0, np.inf, np.zeros((1, 4, 4)))
     first = clearance - REACH * sigma
     step = _STEP * sigma
     e = first + step * np.arange(int(np.ceil((clearance - parameters.deepest_gap - first) / step)) + 2)
+    largest = _pressure(parameters, np.asarray((clearance - e) / sigma, dtype=np.float64))
+    yields = _yields(parameters, np.asarray(e, dtype=np.float64), largest)
     if parameters.arcs:  # over the gap along one normal: what an arc has of it is integrated as it comes
-        pressure = parameters.radius * contact_pressure(
-            np.asarray(clearance - e), sigma, parameters.contact_modulus
-        )
+        pressure = parameters.radius * largest
         splines = spline_coefficients(
             np.arange(e.size, dtype=np.float64), pressure - pressure[0], first_slope=0.0
         )
-        return SliceTable(float(first), float(step), np.ascontiguousarray(splines.T[:, None]))
+        return SliceTable(float(first), float(step), yields, np.ascontiguousarray(splines.T[:, None]))
     # Gauss-Legendre over the arc of contact, in pieces that resolve the change from tail to overlap.
     node, weight = np.polynomial.legendre.leggauss(16)
     pieces = 8
@@ -87,7 +91,29 @@ def slice_table(parameters: BearingParameters) -> SliceTable:
     else:
         pressure = parameters.contact_modulus * interpolate(table, asperity_integral(2.5, table), reduced)
     arc = parameters.radius * pressure * quadrature
-    values = np.stack(((arc * np.cos(psi)).sum(axis=1), arc.sum(axis=1)), axis=1)
+    touching = parameters.radius * real_area(parameters, pressure) * quadrature
+    values = np.stack(
+        ((arc * np.cos(psi)).sum(axis=1), arc.sum(axis=1), touching.sum(axis=1), largest), axis=1
+    )
     splines = spline_coefficients(np.arange(e.size, dtype=np.float64), values - values[0], first_slope=0.0)
     coefficients = np.moveaxis(splines, 0, -1)
-    return SliceTable(float(first), float(step), np.ascontiguousarray(coefficients))
+    return SliceTable(float(first), float(step), yields, np.ascontiguousarray(coefficients))
+
+
+def _pressure(parameters: BearingParameters, gap: Floats) -> Floats:
+    """Asperity pressure of rigid gaps in roughnesses."""
+    if parameters.has_layer:
+        return layered_pressure(parameters, gap)
+    return contact_pressure(gap * parameters.roughness, parameters.roughness, parameters.contact_modulus)
+
+
+def real_area(parameters: BearingParameters, pressure: Floats) -> Floats:
+    """Share in which solids really touch: there the pressure is the hardness (Bowden and Tabor 1950)."""
+    hardness = parameters.layer_hardness
+    return (pressure if parameters.has_layer else bounded_pressure(pressure, hardness)) / hardness
+
+
+def _yields(parameters: BearingParameters, e: Floats, pressure: Floats) -> float:
+    """Eccentricity at which the pressure, which grows with it, reaches where the softer metal yields."""
+    limit = YIELDING * parameters.layer_hardness if parameters.has_layer else parameters.layer_hardness
+    return float(np.interp(limit, pressure, e)) if pressure[-1] > limit else np.inf

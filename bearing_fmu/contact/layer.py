@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 
 _STEP = 0.05
 _SHARPNESS = 4.0
+#: Bounded pressure over the hardness where the asperities alone would press with the hardness.
+YIELDING = 2.0 ** (-1.0 / _SHARPNESS)
 
 #: Gap in roughnesses down to which Patir and Cheng (1978) give their flow factor.
 PUBLISHED = 0.5

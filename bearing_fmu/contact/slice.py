@@ -16,8 +16,9 @@ POINTS = 24
 _gauss = np.polynomial.legendre.leggauss(POINTS)
 NODES, WEIGHTS = 0.5 * (_gauss[0] + 1.0), 0.5 * _gauss[1]
 
-# Result of the contact: wrench (4), dF/dq (16), integral of the contact pressure.
-FORCE, FORCE_SLOPE, LOAD, CONTACT_RESULTS = 0, 4, 20, 21
+# Result of the contact: wrench (4), dF/dq (16), integral of the contact pressure, area in which solids really
+# touch, area in which the softer metal yields, largest pressure.
+FORCE, FORCE_SLOPE, LOAD, AREA, WIPED, PRESSURE, CONTACT_RESULTS = 0, 4, 20, 21, 22, 23, 24
 
 
 @inner_kernel
@@ -60,6 +61,10 @@ def add_slice(
         slope = weight * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3])) / scales.contact_step
         c = table[index, 1]
         result[LOAD] += weight * (c[0] + s * (c[1] + s * (c[2] + s * c[3])))
+        c = table[index, 2]
+        result[AREA] += weight * (c[0] + s * (c[1] + s * (c[2] + s * c[3])))
+        if e > scales.yields:
+            result[WIPED] += weight * 2.0 * scales.radius * np.arccos(scales.yields / e)
         nx, ny = ex / e, ey / e
         dx, dy = nx - grip * ny, ny + grip * nx
         fx, fy = -force * dx, -force * dy
@@ -70,7 +75,7 @@ def add_slice(
         jxx, jxy = -(kxx - grip * kxy), -(kxy - grip * kyy)
         jyx, jyy = -(kxy + grip * kxx), -(kyy + grip * kxy)
     else:
-        fx, fy, jxx, jxy, jyx, jyy, load = _of_arc(bore, pad, scales, table, ex, ey, grip)
+        fx, fy, jxx, jxy, jyx, jyy, load, touching, wiped = _of_arc(bore, pad, scales, table, ex, ey, grip)
         fx, fy, jxx, jxy, jyx, jyy = (
             weight * fx,
             weight * fy,
@@ -80,6 +85,8 @@ def add_slice(
             weight * jyy,
         )
         result[LOAD] += weight * load
+        result[AREA] += weight * touching
+        result[WIPED] += weight * wiped
     result[0] += fx
     result[1] += fy
     result[2] -= z * fy
@@ -98,12 +105,12 @@ def add_slice(
 @inner_kernel
 def _of_arc(
     bore: Pads, pad: int, scales: Scales, table: Floats, ex: float, ey: float, grip: float
-) -> tuple[float, float, float, float, float, float, float]:
-    """Force of an arc (2), its derivatives by the position (2, 2) and its load, per width.
+) -> tuple[float, float, float, float, float, float, float, float, float]:
+    """Of an arc force (2), its derivatives by the position (2, 2), load, width that touches and that yields.
 
     Asperities reach each other over at most two parts of it.
     """
-    fx, fy, jxx, jxy, jyx, jyy, load = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    fx, fy, jxx, jxy, jyx, jyy, load, touching, wiped = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     half = np.arccos(min(scales.contact_first / np.hypot(ex, ey), 1.0))
     start, length = bore.ends[pad, 0], bore.ends[pad, 1] - bore.ends[pad, 0]
     low = np.arctan2(ey, ex) - half - start
@@ -120,6 +127,9 @@ def _of_arc(
             part = table[index, 0]
             share = (right - left) * WEIGHTS[i]
             force = share * (part[0] + r * (part[1] + r * (part[2] + r * part[3])))
+            pressed = min(force / (share * scales.radius * scales.hardness), 1e60)
+            touching += share * scales.radius * pressed / (1.0 + pressed**4) ** 0.25
+            wiped += share * scales.radius if pressed >= 1.0 else 0.0
             slope = share * (part[1] + r * (2.0 * part[2] + 3.0 * r * part[3])) / scales.contact_step
             dx, dy = c - grip * s, s + grip * c
             load += force
@@ -129,4 +139,16 @@ def _of_arc(
             jxy -= slope * dx * s
             jyx -= slope * dy * c
             jyy -= slope * dy * s
-    return fx, fy, jxx, jxy, jyx, jyy, load
+    return fx, fy, jxx, jxy, jyx, jyy, load, touching, wiped
+
+
+@inner_kernel
+def largest_pressure(bore: Bore, scales: Scales, table: Floats, gap: float) -> float:
+    """Contact pressure of the least gap, both SI."""
+    place = (scales.clearance - gap - scales.contact_first) / scales.contact_step
+    if not place > 0.0:
+        return 0.0
+    index = min(int(place), table.shape[0] - 1)
+    s, c = place - index, table[index, table.shape[1] - 1]
+    value = c[0] + s * (c[1] + s * (c[2] + s * c[3]))
+    return value if bore is None else value / scales.radius

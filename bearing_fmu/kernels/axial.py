@@ -70,6 +70,19 @@ class AxialBasis:
         return values
 
 
+def end_slopes(basis: AxialBasis) -> NDArray[np.float64]:
+    """Derivatives by t, at all nodes, of the polynomials that are 1 at one end, shape (2, rows + 2).
+
+    All polynomials of the nodes add up to 1, and with t as their values to t.
+    """
+    t = (
+        np.arctanh(np.clip(basis.nodes[: basis.rows] * np.tanh(basis.clustering), -1.0, 1.0))
+        / basis.clustering
+    )
+    total, moment = -basis.slopes.sum(axis=1), 1.0 - basis.slopes @ t
+    return np.array([0.5 * (total - moment), 0.5 * (total + moment)])
+
+
 def gauss_lobatto(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Nodes and weights of the Gauss-Lobatto-Legendre rule on [-1, 1] with `count` nodes, ends included.
 

@@ -59,6 +59,7 @@ from fmus.port.linear_bearing import (
     coefficient_values,
     rows_of_values,
 )
+from fmus.port.oil import GRADES, USUAL_INDEX, Oil, viscosity_index
 from fmus.port.rotor_variables import at_bearing, rotor
 from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability, Variable, with_starts
 
@@ -75,6 +76,7 @@ __all__ = [
     "FAILURE",
     "FORCE",
     "FOUNDATION",
+    "GRADES",
     "HOUSING",
     "JOURNAL",
     "KINEMATICS",
@@ -87,6 +89,7 @@ __all__ = [
     "STATIC_WRENCH",
     "STIFFNESS",
     "UNITS",
+    "USUAL_INDEX",
     "VELOCITY",
     "WORK",
     "WRENCH",
@@ -95,6 +98,7 @@ __all__ = [
     "Failure",
     "K",
     "Kind",
+    "Oil",
     "Unit",
     "Value",
     "Variability",
@@ -108,5 +112,6 @@ __all__ = [
     "default_word",
     "rotor",
     "rows_of_values",
+    "viscosity_index",
     "with_starts",
 ]

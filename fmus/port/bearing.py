@@ -99,7 +99,7 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         "density",
         "parameter",
         "kg/m3",
-        "density of the oil, of turbulent films",
+        "density of the oil",
         870.0,
         minimum=0.0,
         nominal=1e3,
@@ -147,7 +147,21 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
             ("thickness", "m", "thickness of the bearing's soft layer; 0: rigid", 0.0, 1e-3, False),
             ("modulus", "Pa", "Young's modulus of the layer", 5e10, 1e10, True),
             ("poisson", "", "Poisson's ratio of the layer, below 0.5", 0.35, 0.1, False),
-            ("hardness", "Pa", "hardness of the layer, which bounds the asperity pressure", 2e8, 1e8, True),
+            (
+                "hardness",
+                "Pa",
+                "hardness of the softer metal; of a layer it bounds the contact",
+                2e8,
+                1e8,
+                True,
+            ),
+        )
+    ),
+    *(
+        Variable(f"oil.{name}", "parameter", unit, text, start, minimum=0.0, nominal=nominal, above=True)
+        for name, unit, text, start, nominal in (
+            ("supply_temperature", "K", "temperature at which the oil is supplied", 313.15, 1e2),
+            ("heat_capacity", "J/(kg.K)", "specific heat capacity of the oil", 2e3, 1e3),
         )
     ),
 )
@@ -175,6 +189,30 @@ _OUTPUTS: tuple[Variable, ...] = (
             ("friction_power", "W", "power lost in film shear and solid friction", 0.0, 1e6),
             ("eccentricity", "", "relative eccentricity at the mid-plane, |e|/C", 0.0, 1.0),
             ("sommerfeld", "", "So = |F| psi^2 / (b d eta omega)", 0.0, 1.0),
+            ("contact_pressure", "Pa", "largest solid contact pressure", 0.0, 1e8),
+            (
+                "overlap",
+                "m",
+                "how deep journal and bore would overlap unloaded; 0 while they are apart",
+                0.0,
+                1e-5,
+            ),
+            (
+                "wiped",
+                "",
+                "share of the bore in which the solid contact pressure reaches the hardness",
+                0.0,
+                0.1,
+            ),
+            ("contact_area", "", "share of the bore in which solids really touch", 0.0, 0.1),
+            ("oil_flow", "m3/s", "oil that leaves at both ends of the bearing", 0.0, 1e-3),
+            (
+                "oil_temperature",
+                "K",
+                "supply temperature and half the rise by friction power over oil flow, of 1000 K at most",
+                0.0,
+                1e2,
+            ),
         )
     ),
 )
@@ -202,6 +240,8 @@ BEARING_KEYS: dict[str, str] = {
     "layer_modulus": "layer.modulus",
     "layer_poisson": "layer.poisson",
     "layer_hardness": "layer.hardness",
+    "supply_temperature": "oil.supply_temperature",
+    "heat_capacity": "oil.heat_capacity",
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 

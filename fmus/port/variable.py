@@ -109,11 +109,12 @@ def with_starts(variables: Iterable[Variable], starts: Mapping[str, Value]) -> t
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit as exponents of the SI base units (kg, m, s, rad)."""
+    """A unit as exponents of the SI base units (kg, m, s, K, rad)."""
 
     kg: int = 0
     m: int = 0
     s: int = 0
+    K: int = 0
     rad: int = 0
 
 
@@ -140,4 +141,7 @@ UNITS: dict[str, Unit] = {
     "kg": Unit(kg=1),
     "kg/m3": Unit(kg=1, m=-3),
     "kg.m": Unit(kg=1, m=1),
+    "K": Unit(K=1),
+    "m3/s": Unit(m=3, s=-1),
+    "J/(kg.K)": Unit(m=2, s=-2, K=-1),
 }

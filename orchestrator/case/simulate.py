@@ -24,6 +24,7 @@ from orchestrator.master.coupling import make_scheme
 from orchestrator.master.journal_in_words import with_state
 from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start, begin
+from orchestrator.master.start.heat import as_it_runs
 from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import RunEnd, run
@@ -168,6 +169,7 @@ class _TimeLoop:
 
     def __init__(self, case: Case, system: System, start: Start, timing: Timing) -> None:
         self._case, self._system, self._start, self._timing = case, system, start, timing
+        self._train = as_it_runs(case.train, system)
         scenario, train = case.scenario, case.train
         # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
         self._course, stride = course_of(scenario, train)
@@ -242,7 +244,7 @@ class _TimeLoop:
     def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
         case = self._case
         record = make_record(
-            recorder, self._start, case.scenario, case.train, outcome, message, self._provenance
+            recorder, self._start, case.scenario, self._train, outcome, message, self._provenance
         )
         record = record.assign_attrs(self._least_damped)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

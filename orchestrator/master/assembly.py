@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,7 @@ from orchestrator.fmi.file import FmuFile, FmuStore
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.start.equilibrium import find_start
+from orchestrator.master.start.heat import effective_viscosities
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import (
     Values,
@@ -44,7 +45,8 @@ def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStor
     """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters.
 
     Where depth linear has no stiffness and damping from the train, it has those of the film of
-    `Scenario.linear_from` at the static equilibrium on these films, which is found here.
+    `Scenario.linear_from` at the static equilibrium on these films, which is found here; and so is the
+    viscosity of oils whose temperature is not given.
 
     Raises
     ------
@@ -53,6 +55,30 @@ def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStor
     EquilibriumError
         When films that are to be linearised find none.
     """
+    warm = _warm_parameters(scenario, train, fmus, store)
+    for part in _parts(scenario, train, fmus, store):
+        yield replace(part, parameters=part.parameters | warm.get(part.name, {}))
+
+
+def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> dict[str, Values]:
+    """Viscosities by name of the bearings whose oil finds its temperature at the static equilibrium."""
+    if not any(
+        seat.oil is not None and scenario.depth_of(seat.name) != LINEAR.name for seat in train.bearings
+    ):
+        return {}
+    quick = scenario.model_copy(update={"reduction": "guyan"})  # statics go through the unreduced shaft
+    system = join(_parts(quick, train, fmus, store), quick, train.speed, fmus)
+    try:
+        found = effective_viscosities(system, train, train.speed)
+    except UnitError as error:
+        raise EquilibriumError(str(error)) from None
+    finally:
+        system.close()
+    return {name: {"viscosity": viscosity} for name, viscosity in found.items()}
+
+
+def _parts(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
+    """Yield the units; viscosities of oils that find their temperature are first guesses."""
     yield Part("rotor", _built(rotor_recipe(train), fmus, store), rotor_parameters(scenario, train))
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     files = {

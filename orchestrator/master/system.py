@@ -62,7 +62,7 @@ class System:
         q and v of each journal, the rotor's outputs.
     housings : ndarray (bearings, 8) or None
         q and v of each housing, the rotor's outputs; None where they stand rigidly.
-    responses : ndarray (bearings, 52)
+    responses : ndarray (bearings, 58)
         The bearings' outputs, columns as in `RESPONSE`.
     laws : ndarray (bearings, 36)
         F0, K, C that the rotor was given last.

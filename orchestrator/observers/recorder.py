@@ -29,6 +29,8 @@ EXTREMES = (
     "least_gap",
     "centre_line_gap",
     "contact_force",
+    "contact_pressure",
+    "wiped",
     "defect",
     "step_error",
 )
@@ -37,8 +39,10 @@ EXTREMES = (
 _FORCE, _MOMENT, _DEFECT, _STEP_ERROR = (
     EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect", "step_error")
 )
-_SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("contact_force") + 1)
-_OUTPUTS = [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force")]
+_SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("wiped") + 1)
+_OUTPUTS = [
+    RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force", "contact_pressure", "wiped")
+]
 """Bearing outputs of which the extremes in `_SCALARS` are taken."""
 _SIGN = np.array([-1.0 if name.endswith("gap") else 1.0 for name in EXTREMES])
 _KEPT = [index for name, index in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))]
@@ -68,7 +72,7 @@ class Recorder(Observer):
     ----------
     size : int
         Records so far.
-    peaks, peak_times : ndarray (bearings, 7)
+    peaks, peak_times : ndarray (bearings, 9)
         Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
     """
 
@@ -197,7 +201,7 @@ class Recorder(Observer):
 
     @property
     def peaks(self) -> Array:
-        """Extremes of the whole run, (bearings, 7)."""
+        """Extremes of the whole run, (bearings, 9)."""
         return self._peaks * _SIGN
 
     def shaft(self, name: str) -> Array:

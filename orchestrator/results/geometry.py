@@ -23,6 +23,7 @@ _BEARING = {
     "bearing_ambient_pressure": ("ambient_pressure", "Pa", "pressure at the bearing's ends, over the cavity"),
     "bearing_contact_modulus": ("contact_modulus", "Pa", "contact factor K'E' of Greenwood and Tripp"),
     "bearing_friction": ("friction", "1", "friction coefficient of solid contact"),
+    "bearing_hardness": ("layer_hardness", "Pa", "hardness of the softer metal"),
     "bearing_roughness": ("roughness", "m", "combined roughness of journal and bore"),
 }
 _WHEEL = {

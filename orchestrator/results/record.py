@@ -40,6 +40,12 @@ _SCALARS = {
     "friction_power": ("friction_power", "W", "friction power"),
     "eccentricity": ("eccentricity", "1", "relative eccentricity"),
     "sommerfeld": ("sommerfeld", "1", "Sommerfeld number"),
+    "contact_pressure": ("contact_pressure", "Pa", "largest solid contact pressure"),
+    "overlap": ("overlap", "m", "how deep journal and bore would overlap unloaded"),
+    "wiped": ("wiped", "1", "share of the bore in which the contact reaches the softer metal's hardness"),
+    "contact_area": ("contact_area", "1", "share of the bore in which solids really touch"),
+    "oil_flow": ("oil_flow", "m3/s", "oil that leaves at both ends of the bearing"),
+    "oil_temperature": ("oil_temperature", "K", "supply temperature and half the rise by friction"),
 }
 _EXTREMES = {
     "force_magnitude": ("force_magnitude_max", "N", "largest bearing force"),
@@ -47,6 +53,8 @@ _EXTREMES = {
     "least_gap": ("least_gap_min", "m", "least gap"),
     "centre_line_gap": ("centre_line_gap_min", "m", "least gap on the centre line"),
     "contact_force": ("contact_force_max", "N", "largest solid contact force"),
+    "contact_pressure": ("contact_pressure_max", "Pa", "largest solid contact pressure"),
+    "wiped": ("wiped_max", "1", "largest share of the bore in which the contact reaches the hardness"),
     "defect": ("defect_max", "N", "largest force that the coupling neglected"),
     "step_error": (
         "step_error_max",

@@ -81,8 +81,10 @@ class BearingStatistics:
         First instant of solid contact in the phase, None when there is none.
     contact_share : float
         Share of the phase's time with solid contact, 0 to 1.
-    contact_max : float
-        Largest solid contact force.
+    contact_max, contact_pressure_max : float
+        Largest solid contact force and pressure; the pressure 0 where the record has none.
+    wiped_max : float
+        Largest share of the bore in which the contact reaches the hardness of the softer metal.
     sommerfeld_mean : float
         Mean Sommerfeld number So = F ψ²/(b d η ω).
     """
@@ -102,6 +104,8 @@ class BearingStatistics:
     contact_share: float
     contact_max: float
     sommerfeld_mean: float
+    contact_pressure_max: float = 0.0
+    wiped_max: float = 0.0
 
 
 def contact_threshold(record: xr.Dataset, bearing: str, found: Sequence[Phase]) -> float:
@@ -149,6 +153,9 @@ def bearing_statistics(
         extremes = interval_extreme(record, name, bearing, samples)
         return float(min(samples[peak].min(), extremes[peak_interval].min()))
 
+    def told(name: str) -> float:
+        return largest(f"{name}_max", series(record, name, bearing)) if name in record else 0.0
+
     touching = span_interval & (contact_peak > contact_from)
     return BearingStatistics(
         bearing=bearing,
@@ -166,6 +173,8 @@ def bearing_statistics(
         contact_share=time_mean(time[span], (contact > contact_from)[span].astype(float)),
         contact_max=largest("contact_force_max", contact),
         sommerfeld_mean=mean_of(series(record, "sommerfeld", bearing)),
+        contact_pressure_max=told("contact_pressure"),
+        wiped_max=told("wiped"),
     )
 
 

@@ -45,6 +45,8 @@ UNITS = {
     "time": "s",
     "memory": "B",
     "contact_share": "1",
+    "pressure": "Pa",
+    "wiped": "1",
     "sommerfeld": "1",
 }
 

@@ -15,7 +15,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.results.certificate import CERTIFIED, Certificate
 from orchestrator.results.film_regime import regime_text
 from orchestrator.results.ledger import LedgerSummary
-from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT, STRESS
+from orchestrator.results.quantities import AMPLITUDE, CONTACT_PRESSURE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.results.summary import RunSummary
 from orchestrator.results.validity import ALLOWED, PROMISED, ErrorEstimate
@@ -45,7 +45,15 @@ def _contact_text(summary: RunSummary) -> str:
         assert row.contact_first is not None
         first[row.bearing] = min(first.get(row.bearing, row.contact_first), row.contact_first)
     ordered = sorted(first.items(), key=lambda item: item[1])
-    return "solid contact at " + ", ".join(f"{name} from {time:.3f} s" for name, time in ordered)
+    text = "solid contact at " + ", ".join(f"{name} from {time:.3f} s" for name, time in ordered)
+    worst = max(touching, key=lambda row: row.contact_pressure_max)
+    if worst.contact_pressure_max > 0.0:
+        text += f"; up to {CONTACT_PRESSURE.text(worst.contact_pressure_max)} at {worst.bearing}, "
+        text += f"overlap {GAP.text(max(-worst.least_gap_min, 0.0))}"
+    wiped = max(touching, key=lambda row: row.wiped_max)
+    if wiped.wiped_max > 0.0:
+        text += f"; wiped: {100 * wiped.wiped_max:.2g} % of the bore of {wiped.bearing} yields"
+    return text
 
 
 def _shaft_text(summary: RunSummary) -> Iterable[tuple[str, str]]:

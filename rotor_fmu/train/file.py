@@ -26,6 +26,7 @@ from rotor_fmu.train.checks import (
 )
 from rotor_fmu.train.coefficients import constant, table_text
 from rotor_fmu.train.joints import Nodes, with_joints
+from rotor_fmu.train.oil import CURVE
 from rotor_fmu.train.pedestal import with_foundation
 from rotor_fmu.train.schema import (
     BORE,
@@ -198,7 +199,7 @@ def _train(
     for kind, places in nodes.items():
         joint = CouplingEntry.model_fields.keys() - {"name"} if kind == "coupling" else set()
         parts[kind] = [
-            {**entry.model_dump(exclude={"z", "side", *COEFFICIENTS, *KEYS, *joint}), "node": node}
+            {**entry.model_dump(exclude={"z", "side", *COEFFICIENTS, *KEYS, *CURVE, *joint}), "node": node}
             for entry, node in zip(getattr(data, kind), places, strict=True)
         ]
     for index, seat in enumerate(parts["bearing"]):
@@ -206,6 +207,7 @@ def _train(
         entry = data.bearing[index]
         seat |= {"coefficients": given.get(index, ""), "has_film": entry.has_film, "bore": entry.bore_text}
         seat["pedestal"] = entry.pedestal.pedestal if entry.pedestal else None
+        seat |= entry.in_seat
         if not seat["has_film"]:
             around = shoulders[max(seat["node"] - 1, 0) : seat["node"] + 1]
             journal = min(shoulder.outer_diameter for shoulder in around)

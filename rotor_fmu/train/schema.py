@@ -22,6 +22,7 @@ from fmus import port
 from rotor_fmu.train import bore as bores
 from rotor_fmu.train.coefficients import Matrix, matrix
 from rotor_fmu.train.entry import Entry, Name, angle, grade, positive, within
+from rotor_fmu.train.oil import OilKeys, with_viscosity
 from rotor_fmu.train.pedestal import PedestalEntry
 
 LEAST_LENGTH = 1e-5
@@ -136,7 +137,7 @@ class MassEntry(Placed):
     side: Side = None
 
 
-class BearingEntry(Placed):
+class BearingEntry(OilKeys, Placed):
     """[[bearing]]: see `rotor_fmu.train.train.BearingSeat`; z instead of a node."""
 
     diameter: float = positive(10.0, _LENGTH)
@@ -147,7 +148,6 @@ class BearingEntry(Placed):
     roughness: float = positive(1e-4, "m; did you give um?", port.default_of("roughness"))
     contact_modulus: float = within(0.0, 1e13, _PRESSURE, port.default_of("contact_modulus"))
     friction: float = Field(port.default_of("friction"), ge=0.0, le=2.0)
-    density: float = within(100.0, 3e3, "kg/m3; did you give t/m3?", port.default_of("density"))
     feed_pressure: float = within(0.0, 1e8, _PRESSURE, 0.0)
     feed_content: float = Field(port.default_of("feed_content"), ge=0.0, le=1.0)
     feed_flow: float = within(0.0, 10.0, "m3/s", port.default_of("feed_flow"))
@@ -187,7 +187,8 @@ class BearingEntry(Placed):
     def _without_bore(cls, data: Any, handler: ModelWrapValidatorHandler[BearingEntry]) -> BearingEntry:
         """A bearing of which coefficients are given may do without a bore."""
         bare = isinstance(data, dict) and not COEFFICIENTS.isdisjoint(data) and BORE.keys().isdisjoint(data)
-        entry = handler({**BORE, **data} if bare else data)
+        given = with_viscosity(data) if isinstance(data, dict) else data
+        entry = handler({**BORE, **data} if bare else given)
         entry._has_film = not bare
         _ = entry.bore_text  # refuses what is no bore
         if entry.table is not None and (entry.stiffness is not None or entry.damping is not None):

@@ -82,7 +82,7 @@ class BearingSeat:
     roughness, contact_modulus, friction : float
         Combined roughness [m], contact factor K'E' [Pa], friction coefficient of solid contact.
     density : float
-        Of the oil, for turbulent films [kg/m3].
+        Of the oil [kg/m3].
     feed_pressure : float
         Pressure in the grooves, over the cavity [Pa].
     feed_content, feed_flow : float
@@ -92,6 +92,10 @@ class BearingSeat:
         Its arcs, see `fmus.port.bore.from_text`.
     layer_thickness, layer_modulus, layer_poisson, layer_hardness : float
         Soft layer: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio, hardness [Pa].
+    supply_temperature, heat_capacity : float
+        Of the oil [K], [J/(kg K)].
+    viscosity_40, viscosity_100 : float
+        Kinematic, at 40 and 100 degrees Celsius [m2/s]; 0: the viscosity is given.
     load : float or None
         Static target load on the shaft, against gravity [N]; None: from the catenary, or from the heights.
     residual_tilt_x, residual_tilt_y : float
@@ -127,6 +131,10 @@ class BearingSeat:
     layer_modulus: float = port.default_of("layer_modulus")
     layer_poisson: float = port.default_of("layer_poisson")
     layer_hardness: float = port.default_of("layer_hardness")
+    supply_temperature: float = port.default_of("supply_temperature")
+    heat_capacity: float = port.default_of("heat_capacity")
+    viscosity_40: float = 0.0
+    viscosity_100: float = 0.0
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0
@@ -143,6 +151,11 @@ class BearingSeat:
         if given is not None:
             given = Pedestal(**{key: pair and tuple(pair) for key, pair in given.items()})
         return cls(**data, pedestal=given)
+
+    @property
+    def oil(self) -> port.Oil | None:
+        """The oil whose temperature is to be found; None where the viscosity is given."""
+        return port.Oil(self.viscosity_40, self.viscosity_100) if self.viscosity_40 > 0.0 else None
 
     @property
     def relative_clearance(self) -> float:

@@ -19,7 +19,19 @@ Placed: TypeAlias = Coupling | BearingSeat | Wheel | LumpedMass
 SHAFT_HEADER = "length,outer_diameter,inner_diameter,material"
 _MORE = ",rear_outer_diameter,rear_inner_diameter,counts,z"
 FOUNDATION = "foundation.csv"
-_SINCE = ("height", "sleeve", "feed_pressure", "feed_content", "feed_flow", "bore", "pedestal")
+_SINCE = (
+    "height",
+    "sleeve",
+    "feed_pressure",
+    "feed_content",
+    "feed_flow",
+    "bore",
+    "pedestal",
+    "supply_temperature",
+    "heat_capacity",
+    "viscosity_40",
+    "viscosity_100",
+)
 """Keys that are written where they differ from their defaults."""
 
 
@@ -115,6 +127,8 @@ def _entries(train: Train, part: Placed) -> Iterator[tuple[str, Any]]:
             yield "z", _z(train, part.node)
         elif isinstance(part, BearingSeat) and field.name == "coefficients":
             yield from _given(part)
+        elif field.name == "viscosity" and isinstance(part, BearingSeat) and part.oil is not None:
+            continue  # follows from the oil
         elif field.name in (*scales, "has_film") or (field.name in _SINCE and value == field.default):
             continue
         elif isinstance(value, Pedestal):

@@ -46,7 +46,7 @@ def responses(depth: str) -> tuple[np.ndarray, bool]:
     """The port at 300 states drawn all over the gap, and whether its kernel was compiled for them."""
     film = make_film(depth, BEARING)
     draw = np.random.default_rng(1)
-    rows = np.zeros((300, 52))
+    rows = np.zeros((300, 58))
     for row in rows:
         inputs = np.zeros(17)
         reach, angle = 3e-4 * draw.uniform(0.05, 0.98), draw.uniform(0.0, 2.0 * np.pi)

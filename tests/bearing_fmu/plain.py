@@ -58,7 +58,7 @@ def main(states: Path, out: Path) -> None:
     for case in json.loads(states.read_text()):
         film = make_film(case["depth"], BearingParameters(**case["parameters"]))
         _, (constants, *rest) = film.take()
-        outputs = np.full(52, np.nan)
+        outputs = np.full(58, np.nan)
         status = film._kernel(
             np.array(case["inputs"]), np.zeros(4), outputs, constants.view(np.recarray), *rest
         )

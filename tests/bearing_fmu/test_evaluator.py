@@ -43,6 +43,14 @@ def test_layout_is_the_ports():
         "eccentricity",
         "sommerfeld",
     ]
+    assert names[52:] == [
+        "contact_pressure",
+        "overlap",
+        "wiped",
+        "contact_area",
+        "oil_flow",
+        "oil_temperature",
+    ]
 
 
 @fault(
@@ -56,7 +64,7 @@ def test_layout_is_the_ports():
 def test_not_finite(depth, bad):
     film = make_film(depth, TURBINE)
     for index in range(17):
-        inputs, out = port_inputs(), np.full(52, 7.0)
+        inputs, out = port_inputs(), np.full(58, 7.0)
         inputs[index] = bad
         assert film.solve(inputs, np.zeros(4), out) == FilmStatus.NOT_FINITE
         assert np.all(out == 7.0)
@@ -73,13 +81,13 @@ def test_not_finite(depth, bad):
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("q", [(0.0, -1.3, 0.0, 0.0), (30.0, 0.0, 0.0, 0.0), (1e300, 0.0, 0.0, 0.0)])
 def test_too_deep(depth, q):
-    film, out = make_film(depth, TURBINE), np.full(52, 7.0)
+    film, out = make_film(depth, TURBINE), np.full(58, 7.0)
     assert film.solve(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
     assert np.all(out == 7.0)
 
 
 def test_too_deep_at_one_edge():
-    out = np.full(52, 7.0)
+    out = np.full(58, 7.0)
     q = (0.0, -0.5, 0.8, 0.0)
     assert make_film("v1", TURBINE).solve(port_inputs(q), np.zeros(4), out) == FilmStatus.TOO_DEEP
     assert make_film("v2", TURBINE).solve(port_inputs(q), np.zeros(4), out) == FilmStatus.OK
@@ -108,7 +116,7 @@ def test_closed_gap_without_contact(depth):
 )
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_overflow_is_no_solution(depth):
-    film, out = make_film(depth, TURBINE), np.full(52, 7.0)
+    film, out = make_film(depth, TURBINE), np.full(58, 7.0)
     inputs = port_inputs()
     inputs[16] = 1e306
     assert film.solve(inputs, np.zeros(4), out) == FilmStatus.NO_SOLUTION
@@ -122,7 +130,7 @@ def test_every_failure_has_advice():
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize("q", [(0.0, 0.0, 0.0, 0.0), (0.0, -1.1, 0.05, 0.0), (0.0, -1.19, 0.0, 0.0)])
 def test_extreme_states_are_finite(depth, q):
-    film, out = make_film(depth, TURBINE), np.empty(52)
+    film, out = make_film(depth, TURBINE), np.empty(58)
     for speed in (0.0, SPEED, -SPEED, 1e-9):
         inputs = port_inputs(q)
         inputs[16] = speed
@@ -137,7 +145,7 @@ def test_same_input_same_bits(depth):
     """Whatever was evaluated before, in this instance or another."""
     first, second = make_film(depth, TURBINE), make_film(depth, TURBINE)
     inputs, offset = port_inputs(), np.zeros(4)
-    expected, out = np.empty(52), np.empty(52)
+    expected, out = np.empty(58), np.empty(58)
     assert first.solve(inputs, offset, expected) == 0
     rng = np.random.default_rng(5)
     for _ in range(20):
@@ -156,7 +164,7 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
     others = [make_film("v1", replace(TURBINE, **change)) for change in ({"width": 0.3}, {"clearance": 9e-4})]
     others.append(make_film("v1", replace(TURBINE, boundary="reynolds")))
     inputs, offset = port_inputs(), np.zeros(4)
-    expected, out = np.empty(52), np.empty(52)
+    expected, out = np.empty(58), np.empty(58)
     assert film.solve(inputs, offset, expected) == 0
     space, _ = film.take()
     film.bring_back(space)
@@ -184,7 +192,7 @@ def test_no_two_evaluations_use_one_work_space():
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_a_film_is_prepared_once_for_threads_that_come_and_go(depth):
     """As those of a tool written in C are to Python, at every call."""
-    film, inputs, outputs = make_film(depth, TURBINE), port_inputs(), np.empty((20, 52))
+    film, inputs, outputs = make_film(depth, TURBINE), port_inputs(), np.empty((20, 58))
     for out in outputs:
         thread = Thread(target=film.solve, args=(inputs, np.zeros(4), out))
         thread.start()
@@ -203,7 +211,7 @@ def test_same_bits_with_reynolds_condition():
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_no_allocation(depth):
     film, inputs = make_film(depth, TURBINE), port_inputs((0.2, -0.9, 0.09, 0.02))
-    offset, out = np.zeros(4), np.empty(52)
+    offset, out = np.zeros(4), np.empty(58)
     film.solve(inputs, offset, out)
     nrt.memsys_enable_stats()
     before = rtsys.get_allocation_stats().alloc

@@ -23,7 +23,7 @@ CONTACT = (0.2, -0.9, 0.085, 0.02)
 
 def microseconds(film: Film, q: tuple[float, ...], rounds: int, calls: int = 100) -> tuple[float, float]:
     """Median and least processor time of an evaluation over `rounds` of `calls`, us."""
-    inputs, offset, out = np.zeros(17), np.zeros(4), np.empty(52)
+    inputs, offset, out = np.zeros(17), np.zeros(4), np.empty(58)
     inputs[:4] = np.asarray(q) * lever(film.parameters)
     inputs[4:8] = 0.02 * SPEED * lever(film.parameters)
     inputs[16] = SPEED

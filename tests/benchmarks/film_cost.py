@@ -50,7 +50,7 @@ def kernel(columns: int, rows: int, cases: list[dict[str, str]]) -> tuple[float,
     for row in cases:
         parameters = plain(float(row["L_over_D"]), columns=columns, rows=rows)
         film, (q, v) = make_film("v1", parameters), state(row)
-        inputs, out, offset = np.zeros(17), np.zeros(52), np.zeros(4)
+        inputs, out, offset = np.zeros(17), np.zeros(58), np.zeros(4)
         inputs[:4], inputs[4:8], inputs[16] = q * lever(parameters), v * lever(parameters), 1.0
         times.append(least_time(partial(film.evaluate, inputs, offset, out), repeats=300))
         errors.append(error(out[:4] / force_unit(parameters), row))

@@ -67,7 +67,7 @@ def resolutions() -> None:
     for columns, count in RESOLUTIONS:
         parameters = plain(0.8, columns=columns, rows=count)
         film = make_film("v1", parameters)
-        inputs, out = np.zeros(17), np.zeros(52)
+        inputs, out = np.zeros(17), np.zeros(58)
         inputs[:4], inputs[16] = np.array([0.3, -0.8, 0.02, 0.05]) * lever(parameters), 1.0
         seconds = least_time(partial(film.evaluate, inputs, np.zeros(4), out), repeats=200)
         rows.append((f"{columns} x {count}", f"{1e6 * seconds:.1f}"))

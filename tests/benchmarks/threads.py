@@ -42,7 +42,7 @@ def films() -> dict[int, float]:
     pair = [make_film("v1", parameters) for _ in range(2)]
 
     def work(film: Film) -> None:
-        out, offset = np.zeros(52), np.zeros(4)
+        out, offset = np.zeros(58), np.zeros(4)
         for _ in range(EVALUATIONS):
             film.solve(inputs, offset, out)
 

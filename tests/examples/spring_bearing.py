@@ -14,6 +14,7 @@ OUTPUTS = [f"{what}.{name}" for what in ("wrench", "F0") for name in WRENCH]
 OUTPUTS += [f"{matrix}[{i},{j}]" for matrix in "KC" for i in AXES for j in AXES]
 OUTPUTS += ["h_min", "h_min_centre", "h_min_z", "p_max", "contact_force"]
 OUTPUTS += [f"contact.{name}" for name in WRENCH] + ["friction_power", "eccentricity", "sommerfeld"]
+OUTPUTS += ["contact_pressure", "overlap", "wiped", "contact_area", "oil_flow", "oil_temperature"]
 PARAMETERS = {"clearance": 1e-3, "stiffness": 5e8, "damping": 5e5} | {
     f"offset.{name}": 0.0 for name in POSITION
 }

@@ -85,7 +85,7 @@ class Holistic:
         self._rest[:, :4] = self.static.journals.reshape(count, 4)
         self._inputs = np.zeros((count, 17))
         self._inputs[:, SPEED] = self.speed
-        self._responses = np.zeros((count, 52))
+        self._responses = np.zeros((count, 58))
         self._at = np.full_like(self.start, np.nan)
 
     def rates(self, t: float, x: Array, broken: bool) -> Array:
@@ -112,7 +112,7 @@ class Holistic:
         return jacobian
 
     def responses(self, states: Array) -> Array:
-        """Outputs of the bearings at states (n, 2 m), (n, n_b, 52); not counted as evaluations."""
+        """Outputs of the bearings at states (n, 2 m), (n, n_b, 58); not counted as evaluations."""
         before = self.evaluations
         result = np.array([self._films(x).copy() for x in states])
         self.evaluations = before

@@ -25,7 +25,7 @@ class Solution:
         Instants asked for [s].
     states : ndarray, (n, 2 m)
         x there.
-    responses : ndarray, (n, n_b, 52)
+    responses : ndarray, (n, n_b, 58)
         Outputs of the bearings there; wrenches first.
     evaluations : int
         Evaluations of single films that the integration took.

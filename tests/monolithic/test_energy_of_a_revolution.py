@@ -51,7 +51,7 @@ class Coupled:
         self.films = [make_film(depth, bearing) for bearing in self.bearings]
         self.inputs = np.zeros((len(self.films), 17))
         self.inputs[:, 16] = train.speed
-        self.out = np.zeros((len(self.films), 52))
+        self.out = np.zeros((len(self.films), 58))
         self.offsets = np.zeros((len(self.films), 4))
         self._find_start()
 

@@ -24,7 +24,7 @@ def test_any_input_gives_finite_outputs_or_a_named_status(depth, parameters, num
     units = np.tile(lever(parameters), 5)
     with np.errstate(over="ignore", invalid="ignore"):
         numbers = np.array(numbers) * np.append(units, 100.0)
-    inputs, offset, out = np.append(numbers[:16], numbers[20]), numbers[16:20], np.full(52, 7.0)
+    inputs, offset, out = np.append(numbers[:16], numbers[20]), numbers[16:20], np.full(58, 7.0)
     status = FilmStatus(film(depth, parameters).solve(inputs, offset, out))
     event(f"{depth} {status.name}")
     finite = bool(np.all(np.isfinite(numbers)))
@@ -46,7 +46,7 @@ def test_outputs_belong_together(depth, parameters, q, v, speed):
     units = lever(parameters)
     bearing = film(depth, parameters)
     q, v = q * units, v * units * abs(speed)
-    inputs, out = np.concatenate((q, v, np.zeros(8), [speed])), np.full(52, 7.0)
+    inputs, out = np.concatenate((q, v, np.zeros(8), [speed])), np.full(58, 7.0)
     status = FilmStatus(bearing.solve(inputs, np.zeros(4), out))
     ends = (-0.5, 0.0, 0.5) if depth == "v1" else (0.0,)
     at = np.array(ends) * parameters.width

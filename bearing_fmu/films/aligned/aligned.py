@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, fill_gap, gap_turn, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
-from bearing_fmu.films.aligned.grooves import hold_grooves, links, pressure_drag
+from bearing_fmu.films.aligned.grooves import hold_grooves, links, pressure_drag, side_flow
 from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.tilted.reynolds import summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
@@ -24,6 +24,7 @@ from bearing_fmu.result import (
     CONDUCTANCE,
     DAMPING,
     DRAG,
+    FLOW,
     GAP,
     OPEN,
     OPEN_1,
@@ -162,6 +163,7 @@ def _solve_pressure(
         result[0] -= along * film.weights[j] * cell
         result[1] -= across * film.weights[j] * cell
     result[DRAG] = pressure_drag(film, bore, ambient)
+    result[FLOW] = side_flow(film, bore, speed)
     shear = 0.0
     metric = land(bore, film.rings[0])
     for i in range(m):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.bore import Bore
 from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
-from bearing_fmu.result import CONDUCTANCE, GAP
+from bearing_fmu.result import CONDUCTANCE, GAP, OPEN, OPEN_1, SQUEEZE
 
 Floats = NDArray[np.float64]
 
@@ -62,3 +62,25 @@ def pressure_drag(film: AlignedFilm, bore: Bore, ambient: float) -> float:
                 fore = i + 1 if i + 1 < m else 0
                 total += film.weights[j] * bore.inside[1, i] * gap[i] * (above[fore] - above[i])
     return total
+
+
+@inner_kernel
+def side_flow(film: AlignedFilm, bore: Bore, speed: float) -> float:
+    """Flow out at both ends, as in `bearing_fmu.films.tilted.side_flow`."""
+    total = 0.0
+    for i in range(film.circle.shape[2]):
+        total += _outflow(film, i, speed)
+    if bore is not None:
+        for i in bore.held:
+            total -= _outflow(film, i, speed)
+    return total
+
+
+@inner_kernel
+def _outflow(film: AlignedFilm, i: int, speed: float) -> float:
+    back, modes = i - 1 if i > 0 else film.circle.shape[2] - 1, film.values.shape[0]
+    flow, open_ = 0.0, film.fields[1, OPEN]
+    for r in range(modes):
+        flow += film.outflow[r] * film.modal[0, i, r]
+    opens = speed * (open_[i] - open_[back]) + 2.0 * film.fields[0, OPEN_1, i] * film.fields[0, SQUEEZE, i]
+    return max(flow * film.fields[0, CONDUCTANCE, i] + film.outflow[modes] * opens, 0.0)

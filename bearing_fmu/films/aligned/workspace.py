@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.axial import axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.result import FIELDS
 
@@ -22,6 +22,7 @@ class AlignedFilm(NamedTuple):
     drive: Floats  #: (r,) of a right-hand side that is constant over z
     shapes: Floats  #: (h, r) modes at the rows
     centre: Floats  #: (r,) modes at z = 0
+    outflow: Floats  #: (r + 1,) flow out at both ends by unit pressures, and by the film that opens
     weights: Floats  #: (h,) of integrals over z, both halves
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     rings: Floats  #: (2, RING_ROWS, m)
@@ -42,12 +43,14 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
     even = np.flatnonzero(np.abs(mass @ modes) > 1e-8)
     half = np.flatnonzero(basis.nodes[:rows] > -1e-12)
     double = np.where(basis.nodes[half] > 1e-12, 2.0, 1.0)
+    along = end_slopes(basis).sum(axis=0) * basis.stiffness_weights() * aspect**2
     angle = 2.0 * np.pi / columns * np.arange(2 * columns) / 2.0
     return AlignedFilm(
         values=values[even],
         drive=(mass @ modes)[even],
         shapes=np.ascontiguousarray(modes[np.ix_(half, even)]),
         centre=np.ascontiguousarray((basis.interpolation(np.zeros(1)) @ modes)[0, even]),
+        outflow=np.append(-(along @ basis.slopes @ modes)[even], -basis.weights[rows:].sum()),
         weights=mass[half] * double,
         circle=np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])]),
         rings=np.zeros((2, RING_ROWS, columns)),

@@ -58,6 +58,7 @@ class LinearBearing:
         diameter, width, self._clearance, viscosity = (
             float(values[name]) for name in ("diameter", "width", "clearance", "viscosity")
         )
+        self._supply = float(values["oil.supply_temperature"])
         self._unit_load = viscosity * diameter * width * (0.5 * diameter / self._clearance) ** 2
 
     def rest(self) -> Floats:
@@ -86,7 +87,12 @@ class LinearBearing:
         gap = self._clearance - distance
         rate = self._unit_load * abs(float(inputs[16]))
         others = dict.fromkeys((v.name for v in port.BEARING_OUTPUTS[40:]), 0.0)
-        others |= {"h_min": gap, "h_min_centre": gap, "eccentricity": distance / self._clearance}
+        others |= {
+            "oil_temperature": self._supply,
+            "h_min": gap,
+            "h_min_centre": gap,
+            "eccentricity": distance / self._clearance,
+        }
         others["sommerfeld"] = float(np.hypot(wrench[0], wrench[1])) / rate if rate > 0.0 else 0.0
         parts: list[Any] = [wrench, constant, stiffness.ravel(), damping.ravel(), list(others.values())]
         outputs = np.concatenate(parts)

@@ -19,7 +19,7 @@ from bearing_fmu.films.short.flooded import CIRCLE, RING, SMALL, flooded
 from bearing_fmu.films.short.turbulent import turbulent_peak, turbulent_shear
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, SIN
-from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS
+from bearing_fmu.result import DAMPING, FLOW, PEAK, SHEAR, STIFFNESS
 
 Floats = NDArray[np.float64]
 
@@ -209,3 +209,5 @@ def solve_short(
         result[SHEAR] = 4.0 * np.pi / np.sqrt(1.0 - x * x - y * y)
         peak = largest_pressure(x, y, a, b)
     result[PEAK] = ambient + 0.5 * ratio * max(peak, 0.0)
+    # what the wedge drags in over half the circumference, whatever resists it
+    result[FLOW] = 4.0 * np.sqrt(a * a + b * b)

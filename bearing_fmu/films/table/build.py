@@ -11,11 +11,11 @@ from bearing_fmu.evaluate import RESULT
 from bearing_fmu.film import Film
 from bearing_fmu.films.aligned.depth import SOLVER as ALIGNED
 from bearing_fmu.films.table.spline import coefficients
-from bearing_fmu.films.table.table import FORCE, PARTS, RUB, SUMMIT, TURN, Table, narrowing, solve_table
+from bearing_fmu.films.table.table import FORCE, PARTS, RUB, RUN, SUMMIT, TURN, Table, narrowing, solve_table
 from bearing_fmu.kernels.compiled import kernel
 from bearing_fmu.outputs import INPUTS, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.result import PEAK, RESULTS, SHEAR
+from bearing_fmu.result import FLOW, PEAK, RESULTS, SHEAR
 from fmus import port
 
 Floats = NDArray[np.float64]
@@ -54,7 +54,7 @@ class Built:
     def table(self) -> Table:
         """For the kernel, with a work space of its own."""
         return Table(
-            self.coefficients, self.last / (self.coefficients.shape[0] - 3), self.last, np.zeros((7, 4))
+            self.coefficients, self.last / (self.coefficients.shape[0] - 3), self.last, np.zeros((7, PARTS))
         )
 
 
@@ -130,6 +130,7 @@ def _parts(result: Floats, r: float, ratio: float) -> Floats:
     parts[TURN] = np.arctan2(-result[1], -result[0])
     parts[SUMMIT] = np.log(max(float(result[PEAK]), np.finfo(float).tiny) * r**4 * wall)
     parts[RUB] = result[SHEAR] * r
+    parts[RUN] = result[FLOW]
     return parts
 
 

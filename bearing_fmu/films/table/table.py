@@ -25,12 +25,13 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.films.table.spline import blend
 from bearing_fmu.kernels.compiled import inner_kernel, kernel, stage
-from bearing_fmu.result import DAMPING, PEAK, SHEAR, STIFFNESS
+from bearing_fmu.result import DAMPING, FLOW, PEAK, SHEAR, STIFFNESS
 
 Floats = NDArray[np.float64]
 
-#: Parts of a table: logarithm of the force, its angle, logarithm of the largest pressure, shear integral.
-FORCE, TURN, SUMMIT, RUB, PARTS = range(5)
+#: Parts of a table: logarithm of the force, its angle, logarithm of the largest pressure, shear integral, and
+#: side flow over |D'|.
+FORCE, TURN, SUMMIT, RUB, RUN, PARTS = range(6)
 _NEAR = 1e-9
 
 
@@ -40,7 +41,7 @@ class Table(NamedTuple):
     coefficients: Floats  #: (n + 2, m + 3, PARTS)
     step: float  #: of a
     last: float  #: largest a
-    work: Floats  #: (7, 4) work space
+    work: Floats  #: (7, PARTS) work space
 
 
 @kernel
@@ -129,3 +130,4 @@ def solve_table(
         result[at + 4] = -(grown * fy + swung * fx + size * (c * ty + s * tx))
     result[PEAK] = np.sqrt(square) * np.exp(found[SUMMIT]) / (r**4 * wall)
     result[SHEAR] = found[RUB] / r
+    result[FLOW] = np.sqrt(square) * found[RUN]

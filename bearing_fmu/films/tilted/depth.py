@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.bore import Bore
 from bearing_fmu.contact.contact import add_tilted, sliding_sense
 from bearing_fmu.contact.layer import layer_table
+from bearing_fmu.contact.slice import AREA, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel, port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
@@ -68,6 +69,9 @@ def _solve_on_layer(
     half = 0.5 * scales.width
     if not add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact):
         return NO_SOLUTION
+    contact[PRESSURE] *= scales.hardness
+    contact[AREA] *= scales.radius * half
+    contact[WIPED] *= scales.radius * half
     return OK
 
 
@@ -76,7 +80,8 @@ def _prepare_on_layer(parameters: BearingParameters, space: dict[str, Any]) -> L
     sigma = parameters.roughness / parameters.clearance
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
     soft = parameters.layer_compliance * unit / parameters.clearance
-    return layered_film(_prepare(parameters, space), first, table, sigma, soft)
+    hardness = parameters.layer_hardness / unit
+    return layered_film(_prepare(parameters, space), first, table, sigma, soft, hardness)
 
 
 SOLVER = Solver(

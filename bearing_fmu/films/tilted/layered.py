@@ -18,18 +18,20 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.layer import deflection, rough_flow
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
+from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
 from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring
 from bearing_fmu.kernels.vector import LANES, add_rows
-from bearing_fmu.result import CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, POWER, SQUEEZE
+from bearing_fmu.result import CONDUCTANCE, FLOW, GAP, OPEN, OPEN_1, OPEN_2, POWER, SQUEEZE
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
 
 ROUNDS = 60
-_PRECISION = 1e-11
+#: Of a step of the pressure: one more would change it by about the square of that.
+_PRECISION = 1e-7
 _FLAT = 1e-12
 
 
@@ -38,7 +40,9 @@ class LayeredFilm(NamedTuple):
 
     film: TiltedFilm
     table: Floats  #: of `contact.layer.layer_table`
-    constants: Floats  #: first s of the table; roughness and compliance times pressure unit over clearance
+    constants: (
+        Floats  #: first s of the table; roughness, compliance times pressure unit over clearance; hardness
+    )
     asperities: Floats  #: (3, n + 2, m) pressure of the asperities in units of the film's, slope by s; work
     advected: Floats  #: (2, n, m') change of wedge and of flow by the deflection at the faces
     lower: Floats  #: (m n',) couplings of the Jacobian
@@ -48,7 +52,7 @@ class LayeredFilm(NamedTuple):
 
 
 def layered_film(
-    film: TiltedFilm, first: float, table: Floats, sigma: float, compliance: float
+    film: TiltedFilm, first: float, table: Floats, sigma: float, compliance: float, hardness: float
 ) -> LayeredFilm:
     """Prepare the film with its own work space."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -56,7 +60,7 @@ def layered_film(
     return LayeredFilm(
         film=film,
         table=table,
-        constants=np.array([first, sigma, compliance]),
+        constants=np.array([first, sigma, compliance, hardness]),
         asperities=np.zeros((3, n + 2, m)),
         advected=np.zeros((2, n, film.face.shape[2])),
         lower=np.zeros(m * width),
@@ -226,4 +230,5 @@ def solve_layered(
     if status == OK:
         _linearise(layered, v, speed, ambient, True)
         integrate(film, None, ambient, result)
+        result[FLOW] = side_flow(film, None, q, v, speed, sigma)
     return status

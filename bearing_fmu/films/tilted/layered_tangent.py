@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.contact.slice import FORCE, LOAD
+from bearing_fmu.contact.layer import YIELDING
+from bearing_fmu.contact.slice import AREA, FORCE, LOAD, PRESSURE, WIPED
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.reynolds import unfold
 from bearing_fmu.films.tilted.tangent import (
@@ -66,6 +67,10 @@ def _touch(
                 share = _pushes(layered, j, i, grip, part)
                 load = share * layered.asperities[0, j, i] * force
                 contact[LOAD] += load
+                pressed = layered.asperities[0, j, i] / layered.constants[3]
+                contact[PRESSURE] = max(contact[PRESSURE], pressed)
+                contact[AREA] += share * pressed
+                contact[WIPED] += share if pressed >= YIELDING else 0.0
                 for k in range(4):
                     contact[FORCE + k] += load * part[k] * (1.0 if k < 2 else half)
                     if j < n and film.pressures[0, j, i] + ambient > 0.0:

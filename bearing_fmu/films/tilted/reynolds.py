@@ -22,6 +22,7 @@ from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.tilted.grooves import hold_grooves, pressure_drag
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
+from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
@@ -33,6 +34,7 @@ from bearing_fmu.result import (
     ABSOLUTE,
     CONDUCTANCE,
     DRAG,
+    FLOW,
     GAP,
     OPEN,
     OPEN_1,
@@ -291,6 +293,7 @@ def solve_pressure(
             break
     if status == OK:
         integrate(film, bore, ambient, result)
+        result[FLOW] = side_flow(film, bore, q, v, speed, sigma)
         if reynolds > 0.0:
             result[SHEAR] = _turbulent_shear(film, bore, reynolds)
     return status

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.axial import axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.kernels.vector import padded
 from bearing_fmu.result import FIELDS
@@ -33,6 +33,7 @@ class TiltedFilm(NamedTuple):
     slopes: Floats  #: ((n + 2) n,) derivatives of the basis
     products: Floats  #: ((n + 2) n n',) their outer products
     fine: Floats  #: (4 n, n) basis between the nodes
+    ends: Floats  #: (2, n + 2) derivatives of what is 1 at an end and 0 at all other nodes
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     # from here on work space
@@ -88,6 +89,7 @@ def tilted_film(columns: int, rows: int, aspect: float, space: dict[str, Floats]
         slopes=basis.slopes.ravel(),
         products=products.ravel(),
         fine=basis.interpolation(basis.place(np.linspace(-1.0, 1.0, 4 * rows + 2)[1:-1])),
+        ends=end_slopes(basis),
         circle=circle,
         held=np.zeros((rows, padded(columns))),
         **space,

@@ -19,6 +19,7 @@ from orchestrator.results.quantities import (
     NUMBER,
     PRESSURE,
     RATIO,
+    SHARE,
     STRESS,
     VIBRATION,
 )
@@ -109,6 +110,10 @@ class _Bearing:
             yield held(
                 contact, "solid contact", place, FORCE, force, 0.0, note=note, instant=when, trips=True
             )
+        if (wiped := limits.wiped) is not None and found.wiped_max > wiped.largest:
+            note = f"{100.0 * found.wiped_max:.2g} % of the bore yields"
+            when, most, allowed = self._when("wiped_max", phase), found.wiped_max, wiped.largest
+            yield held(wiped, "wiped bore", place, SHARE, most, allowed, note=note, instant=when)
         if (vibration := limits.shaft_vibration) is not None and "displacement" in self.record:
             yield self._vibration(phase, vibration)
 

@@ -88,6 +88,12 @@ class Contact(_Limit):
     """Solid contact, which has no limit but none."""
 
 
+class Wiped(_Limit):
+    """Share of a bore in which the contact may reach the hardness of the softer metal."""
+
+    largest: Annotated[float, Field(ge=0.0, le=1.0)]
+
+
 class Stress(_Limit):
     """Largest nominal normal stress of the shaft [Pa]."""
 
@@ -104,6 +110,7 @@ class Limits(BaseModel):
     laminar_film: LaminarFilm | None = None
     log_decrement: LogDecrement | None = None
     contact: Contact | None = None
+    wiped: Wiped | None = None
     stress: Stress | None = None
 
 

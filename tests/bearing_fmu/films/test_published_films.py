@@ -107,6 +107,20 @@ def test_butenschoen_reynolds(row):
     assert beta == pytest.approx(float(row["beta_ref"]), abs=0.1)
 
 
+@pytest.mark.parametrize("row", BUTENSCHOEN, ids=lambda row: f"{row['B_over_D']}-{row['eps']}")
+def test_butenschoen_side_flow(row):
+    """Q over R^3 psi omega, of a radius of 0.5 m and a clearance of 1 mm at 1 rad/s."""
+    _, _, response = sommerfeld_and_angle(
+        float(row["B_over_D"]),
+        float(row["eps"]),
+        fed_at_widest_gap=True,
+        boundary="reynolds",
+        columns=192,
+        rows=12,
+    )
+    assert response.oil_flow / (0.5**2 * 1e-3) == pytest.approx(float(row["Q_ref"]), rel=0.01)
+
+
 @pytest.mark.parametrize("row", RAIMONDI_BOYD, ids=lambda row: f"{row['L_over_D']}-{row['eps']}")
 @published(
     "load, angle and friction of full bearings",

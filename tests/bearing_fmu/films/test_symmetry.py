@@ -82,7 +82,7 @@ def test_moving_housing_and_offset(depth):
     film = make_film(depth, TURBINE)
     units = lever(TURBINE)
     rng = np.random.default_rng(1)
-    inputs, offset, out = np.zeros(17), rng.normal(size=4) * units, np.empty(52)
+    inputs, offset, out = np.zeros(17), rng.normal(size=4) * units, np.empty(58)
     inputs[8:12] = rng.normal(size=4) * units
     inputs[12:16] = rng.normal(size=4) * units * SPEED
     inputs[:4] = Q * units + inputs[8:12] + offset

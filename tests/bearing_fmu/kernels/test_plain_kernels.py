@@ -77,7 +77,7 @@ def test_compiled_kernels_are_the_python_they_are_written_in(case, plain_results
     state, depth = case
     settings, q, v = STATES[state]
     parameters = plain(0.7, **settings)
-    out = np.full(52, np.nan)
+    out = np.full(58, np.nan)
     status = make_film(depth, parameters).solve(port_inputs(parameters, q, v), np.zeros(4), out)
     expected = plain_results[case]
     assert status == expected[0]
