@@ -14,11 +14,12 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.jfo.network import balance
 from bearing_fmu.films.jfo.reynolds import conclude, set_up
 from bearing_fmu.films.jfo.tangent import add_jfo_tangent
-from bearing_fmu.films.jfo.workspace import GROOVE, STEP, JfoFilm, jfo_film
+from bearing_fmu.films.jfo.workspace import ENDS, GROOVE, STEP, JfoFilm, jfo_film
 from bearing_fmu.films.tilted.workspace import STOCK
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.outputs import OUTPUTS
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import FLOW
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NOT_CONVERGED, OK
 from bearing_fmu.stock import bring_back
@@ -38,6 +39,7 @@ def _solve(
     status, _ = balance(film.net)
     if status == OK:
         conclude(film, bore, reynolds, result)
+        result[FLOW] = np.sqrt(scales.slenderness) * max(film.flows[ENDS], 0.0)  # there over C R b/4
         add_jfo_tangent(film, bore, q, v, speed, result)
     return status
 

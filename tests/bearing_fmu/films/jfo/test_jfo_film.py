@@ -217,7 +217,7 @@ def test_a_bearing_without_oil_is_refused():
 def test_an_elrod_bearing_with_a_groove_of_part_of_its_width():
     """Stored fields of an independent program on 100 x 26 cells, quasi-static: within a few per cent.
 
-    Its ends hold full cells, which feed the film: full share and least content, 64.3 % and 0.55 there, are not
+    Its ends hold full cells, which feed the film: full share and least content, 64.3 % and 0.55, are not
     compared, since nothing comes in over the ends here.
     """
     diameter, width, clearance, viscosity, speed = 0.1, 0.08, 1.5e-4, 0.01, 100.0 * np.pi
@@ -246,7 +246,6 @@ def test_an_elrod_bearing_with_a_groove_of_part_of_its_width():
     force = result[:2] * float(data[0][0]["force"])
     pressure = jfo.net.pressure * unit
     share = jfo.volumes / (jfo.film.column[1, :24, :96])
-    full = (share * jfo.net.full).sum() / share.sum()
     mean = (share * jfo.net.content).sum() / share.sum()
     peak = np.unravel_index(pressure.argmax(), pressure.shape)
     np.testing.assert_allclose(-force, (1055.4, -1383.3), rtol=0.05)  # that on the bearing
