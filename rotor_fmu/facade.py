@@ -15,6 +15,7 @@ from fmus.unit.layout import Layout
 from fmus.unit.slave import UnitSlave
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
+from rotor_fmu.vibration.drive import Drive, course_of
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 
@@ -41,14 +42,17 @@ class RotorSlave(UnitSlave):
         self._train, layout = _train_and_layout(*files)
         super().__init__(layout, **kwargs)
         bearings = len(self._train.bearings)
-        law = self.inputs[1:].reshape(bearings, _LAW)
+        last = 1 + bearings * _LAW
+        law = self.inputs[1:last].reshape(bearings, _LAW)
+        self._states_of_drive, self._friction = self.inputs[last : last + 2], self.inputs[last + 2 :]
         self._law = (
             law[:, :4],
             law[:, 4:20].reshape(bearings, 4, 4),
             law[:, 20:].reshape(bearings, 4, 4),
         )
         # Journals, and behind them the housings where these move.
-        self._motion = self.values[layout.outputs].reshape(-1, bearings, 8)
+        outputs = self.values[layout.outputs]
+        self._motion, self._rotation = outputs[:-1].reshape(-1, bearings, 8), outputs[-1:]
         self._built_for: dict[str, Any] | None = None
 
     def _value(self, name: str) -> float:
@@ -69,6 +73,10 @@ class RotorSlave(UnitSlave):
         for j, wheel in enumerate(train.wheels, 1):
             self.values[self.layout[f"wheel[{j}].z"]] = train.z[wheel.node]
         self.values[self.layout.block("node[1].z", f"node[{train.nodes}].z")] = train.z
+        self._drive = Drive(
+            course_of(self.strings[self.layout[port.COURSE]]),
+            *(self._value(f"drive.{name}") for name in ("inertia", "windage", "windage_broken")),
+        )
         self._build()
 
     def _build(self) -> None:
@@ -76,8 +84,9 @@ class RotorSlave(UnitSlave):
         built_for: dict[str, Any] = {
             "reduction": self.strings[self.layout["reduction"]],
             "gravity": self._value("gravity"),
-            "speed": float(self.inputs[0]),
+            "speed": self._start_speed(),
             "fracture_time": self._value("fracture.time"),
+            "losses": self.strings[self.layout[port.LOSSES]],
             "track_work": bool(self._value("track_work")),
         }
         for key in ("unbalance", "unbalance_phase", "blade_unbalance", "blade_phase"):
@@ -101,8 +110,21 @@ class RotorSlave(UnitSlave):
             self._rotor.start_from_positions(*parts, time=self.start_time)
         self._show()
 
+    def _start_speed(self) -> float:
+        drive = self._drive
+        return drive.on_course(self.start_time) if drive.course else float(self.inputs[0])
+
+    def _end_speed(self, time: float, step: float) -> float:
+        """Speed at the end of a step [rad/s]."""
+        released, broken = self._states_of_drive >= 0.5
+        if released:
+            friction = float(self._friction.sum())
+            return self._drive.let_go(self._rotor.speed, step, friction, broken=bool(broken))
+        return self._drive.on_course(time + step) if self._drive.course else float(self.inputs[0])
+
     def _show(self) -> None:
-        """Write the motion of journals and housings."""
+        """Write the motion of journals and housings, and the speed."""
+        self._rotation[0] = self._rotor.speed
         self._motion[0] = self._rotor.kinematics()
         if len(self._motion) > 1:
             self._motion[1] = self._rotor.housings()
@@ -120,7 +142,7 @@ class RotorSlave(UnitSlave):
 
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
-        self._rotor.step(time, step, *self._law, float(self.inputs[0]))
+        self._rotor.step(time, step, *self._law, self._end_speed(time, step))
         self._show()
 
     def observe(self, group: str) -> None:

@@ -17,9 +17,12 @@ from fmus.port.connector import (
     kinematics,
     law,
 )
+from fmus.port.drive import DRIVE_INPUTS, DRIVE_PARAMETERS, FRICTION_POWER, ROTATION_OUTPUT
 from fmus.port.failure import FAILURE
 from fmus.port.start import ORBIT_FOLLOWS, START_PARTS, shape_follows, start_names
 from fmus.port.variable import Value, Variable, with_starts
+
+_SPEED = Variable(SPEED, "input", "rad/s", "", NOMINAL_SPEED, nominal=100.0)
 
 
 def at_bearing(index: int, name: str) -> str:
@@ -167,15 +170,27 @@ def rotor(
     otherwise, so that other tools see no algebraic loop at the start.
     """
     variables: list[Variable] = [
-        Variable(SPEED, "input", "rad/s", "rotor speed, positive from x to y", NOMINAL_SPEED, nominal=100.0)
+        Variable(
+            SPEED,
+            "input",
+            "rad/s",
+            "rotor speed at the end of a step, positive from x to y",
+            NOMINAL_SPEED,
+            nominal=100.0,
+        )
     ]
     for i, name in enumerate(bearings, 1):
         for v in law("input", f"bearing[{i}]."):
             variables.append(replace(v, description=f"{name}: {v.description}"))
+    variables.extend(DRIVE_INPUTS)
+    for i, name in enumerate(bearings, 1):
+        power = f"{name}: friction power, which slows a released rotor"
+        variables.append(Variable(at_bearing(i, FRICTION_POWER), "input", "W", power, 0.0, nominal=1e5))
     for i, name in enumerate(bearings, 1):
         variables.extend(_rotor_journal(i, name))
     for i, name in enumerate(bearings if moving else (), 1):
         variables.extend(_housing(i, name))
+    variables.append(ROTATION_OUTPUT)
     shape = shape_follows(len(bearings), len(wheels))
     for i, name in enumerate(bearings if moving else (), 1):
         variables.extend(_on_foundation(i, name, shape))
@@ -183,7 +198,7 @@ def rotor(
         summary = Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes")
         variables.append(replace(summary, starts_on=shape))
     variables.extend(replace(v, starts_on=() if v.name in WORK else shape) for v in BALANCE)
-    variables.extend(_ROTOR_PARAMETERS)
+    variables.extend((*_ROTOR_PARAMETERS, *DRIVE_PARAMETERS))
     for i, name in enumerate(bearings, 1):
         variables.extend(_seat(i, name))
     for j, name in enumerate(wheels, 1):

@@ -144,4 +144,6 @@ UNITS: dict[str, Unit] = {
     "K": Unit(K=1),
     "m3/s": Unit(m=3, s=-1),
     "J/(kg.K)": Unit(m=2, s=-2, K=-1),
+    "kg.m2": Unit(kg=1, m=2),
+    "N.m.s2": Unit(kg=1, m=2, rad=-2),
 }

@@ -53,9 +53,7 @@ class FolderUnits:
     train: Train
     place: Path
     store: FmuStore
-
-    def __post_init__(self) -> None:
-        self.speed = self.train.speed
+    speed: float
 
     def parts(self, scenario: Scenario) -> Iterable[Part]:
         """Return the units of the scenario's depths, with its parameters."""
@@ -99,7 +97,12 @@ def folder_case(
 ) -> Iterator[Case]:
     """A case of a scenario on FMUs in a folder; extracts them on demand and removes that at the end."""
     with FmuStore() as store:
-        yield Case(scenario, train, FolderUnits(train, fmus, store), about=about or {})
+        yield Case(
+            scenario,
+            train,
+            FolderUnits(train, fmus, store, scenario.start_speed(train.speed)),
+            about=about or {},
+        )
 
 
 @contextmanager

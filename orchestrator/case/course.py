@@ -6,6 +6,7 @@ import math
 
 from orchestrator.master.coupling import SCHEMES, Multirate
 from orchestrator.master.time_loop import Course
+from orchestrator.scenario.events import Switch
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
@@ -23,12 +24,14 @@ def course_of(scenario: Scenario, train: Train) -> tuple[Course, int]:
     """
     scheme, step, tolerance = SCHEMES[scenario.coupling], scenario.step, scenario.tolerance
     stride = max(1, round(scenario.record.interval / step))
-    level = 0
+    schedule, level = schedule_of(scenario, train), 0
     if scheme.many_rates:
-        longest = 2.0 * math.pi / abs(train.speed) / LONGEST
+        fastest = max([abs(schedule.speed), *(abs(speed) for _, speed in schedule.course)])
+        longest = 2.0 * math.pi / fastest / LONGEST
         whole = max(k for k in range(1, stride + 1) if stride % k == 0 and (k == 1 or k * step <= longest))
         step, stride, level = whole * step, stride // whole, math.ceil(math.log2(whole))
         tolerance = Multirate.tolerance if tolerance is None else tolerance
     controlled = tolerance is not None or scheme.iterates
-    events = schedule_of(scenario, train).instants if controlled else ()
+    switches = sorted({event.time for event in schedule.events if isinstance(event, Switch)})
+    events = schedule.instants if controlled else tuple(switches)
     return Course(scenario.end, step, tolerance, events, level), stride

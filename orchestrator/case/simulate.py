@@ -29,6 +29,7 @@ from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import RunEnd, run
 from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, Saver
+from orchestrator.observers.happenings import Happenings
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
@@ -39,6 +40,7 @@ from orchestrator.results.result import Result, Stopwatch, Timing
 from orchestrator.results.validity import judge
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
+from orchestrator.scenario.schedule import schedule_of, turned
 from rotor_fmu.train.train import Train
 
 WORTH_A_THREAD = 4
@@ -172,6 +174,7 @@ class _TimeLoop:
         self._train = as_it_runs(case.train, system)
         scenario, train = case.scenario, case.train
         # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
+        self._schedule = schedule_of(scenario, train)
         self._course, stride = course_of(scenario, train)
         self._recorder = Recorder(system, train.nodes, self._course.steps, stride)
         load = float(np.abs(start.loads).mean()) or _LEAST_LOAD
@@ -182,6 +185,10 @@ class _TimeLoop:
         if self._ledger is not None:
             self._keepers["ledger"] = self._ledger
             self._observers.append(self._ledger)
+        self._happenings = Happenings(system, scenario.events, start.static)
+        if scenario.turns:
+            self._keepers["happenings"] = self._happenings
+            self._observers.append(self._happenings)
         self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
         self._least_damped = least_damped_attributes(train, case.units.speed, start.tangents)
         self._reduction = (
@@ -247,4 +254,8 @@ class _TimeLoop:
             recorder, self._start, case.scenario, self._train, outcome, message, self._provenance
         )
         record = record.assign_attrs(self._least_damped)
+        if case.scenario.turns:
+            happened = self._happenings.happened
+            ran = turned(self._schedule, recorder.times, recorder.speeds, happened)
+            record = record.assign_attrs(ran.attributes())
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

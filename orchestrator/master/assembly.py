@@ -104,7 +104,8 @@ def _built(recipe: Recipe, fmus: Path, store: FmuStore) -> FmuFile:
 
 def assemble(scenario: Scenario, train: Train, fmus: Path, store: FmuStore, threads: int = 1) -> System:
     """Make the system of a scenario from a folder of FMUs; otherwise as `join`."""
-    return join(parts_in_folder(scenario, train, fmus, store), scenario, train.speed, fmus, threads)
+    speed = scenario.start_speed(train.speed)
+    return join(parts_in_folder(scenario, train, fmus, store), scenario, speed, fmus, threads)
 
 
 def _linear_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> dict[str, Values]:
@@ -127,7 +128,7 @@ def _linear_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuS
     changes = {"depth": depth, "depth_at": {**scenario.depth_at, **given, **films}}
     system = assemble(scenario.model_copy(update=changes), train, fmus, store)
     try:
-        start = find_start(system, train, train.speed)
+        start = find_start(system, train, scenario.start_speed(train.speed))
         names = (*port.STATIC_WRENCH, *port.STATIC_POSITION, *port.STIFFNESS, *port.DAMPING)
         stiffness, damping = np.split(system.tangents, 2, axis=2)
         positions = system.bearing_inputs[:, :4] - start.offsets
@@ -176,7 +177,7 @@ def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, t
         for part in parts:
             units.append(Unit(part.file, part.name, release_gil=bool(units) and threads > 1))
             parameters.append(part.parameters)
-        system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring)
+        system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring, turning=scenario.turns)
         system.bearing_group.employ(threads)
         halved = scenario.tolerance is not None or SCHEMES[scenario.coupling].many_rates
         for unit, values in zip(units, parameters, strict=True):

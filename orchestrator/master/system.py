@@ -14,8 +14,8 @@ from orchestrator.errors import PortError
 from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph, Group
+from orchestrator.master.port_check import differences
 from orchestrator.master.rollback import Rollback
-from rotor_fmu.train.wording import likely
 
 Array = NDArray[np.float64]
 
@@ -50,6 +50,8 @@ class System:
         In the order of the rotor's bearings.
     wiring : Wiring
         What the bearings give the rotor.
+    turning : bool
+        Whether the rotor tells the bearings its speed, and they it their friction; else all are told.
 
     Raises
     ------
@@ -72,23 +74,29 @@ class System:
         The way back to the start of a step.
     """
 
-    def __init__(self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW) -> None:
+    def __init__(
+        self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW, *, turning: bool = False
+    ) -> None:
         n = len(bearings)
-        check_port(rotor, bearings)
+        check_port(rotor, bearings, turning=turning)
         self.rotor = rotor
         self.bearings = tuple(bearings)
         self.wiring = wiring
         rotor_inputs = (port.SPEED, *_at_bearings(n, port.LAW))
         moving = port.at_bearing(1, port.HOUSING[0]) in rotor.file.variables
+        if turning:
+            friction = (port.at_bearing(i, port.FRICTION_POWER) for i in range(1, n + 1))
+            rotor_inputs += (port.RELEASED, port.VACUUM_BROKEN, *friction)
         rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
         if moving:
             rotor_outputs += tuple(_at_bearings(n, port.HOUSING))
+        rotor_outputs += (port.ROTATION,) if turning else ()
         self.graph = Graph(
             [
                 (rotor, rotor_inputs, rotor_outputs),
                 *((bearing, _BEARING_INPUTS, _BEARING_OUTPUTS) for bearing in bearings),
             ],
-            port_connections(rotor.name, [b.name for b in bearings], wiring, moving=moving),
+            port_connections(rotor.name, [b.name for b in bearings], wiring, moving=moving, turning=turning),
         )
         inputs, outputs = self.graph.inputs, self.graph.outputs
         self.journals: Array = outputs[: n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
@@ -98,7 +106,9 @@ class System:
         self.responses: Array = outputs[len(rotor_outputs) :].reshape(n, len(_BEARING_OUTPUTS))
         self.laws: Array = inputs[1 : 1 + n * _PER_LAW].reshape(n, _PER_LAW)
         self._rotor_speed = inputs[:1]
-        self.bearing_inputs: Array = inputs[1 + n * _PER_LAW :].reshape(n, len(_BEARING_INPUTS))
+        self._speed_now = outputs[len(rotor_outputs) - 1 : len(rotor_outputs)] if turning else inputs[:1]
+        self._input_at = {name: index for index, name in enumerate(rotor_inputs)}
+        self.bearing_inputs: Array = inputs[len(rotor_inputs) :].reshape(n, len(_BEARING_INPUTS))
         self.rotor_group: Group = self.graph.group([rotor.name])
         self.bearing_group: Group = self.graph.group([b.name for b in bearings])
         self.groups = (self.rotor_group, self.bearing_group)
@@ -168,6 +178,15 @@ class System:
     def _force_scale(self) -> Array:
         return np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
 
+    @property
+    def speed(self) -> float:
+        """Speed of the rotor now in rad/s."""
+        return float(self._speed_now[0])
+
+    def switch(self, name: str) -> None:
+        """Set an input of a turning rotor, `port.RELEASED` or `port.VACUUM_BROKEN`, to 1 from now on."""
+        self.graph.inputs[self._input_at[name]] = 1.0
+
     def set_speed(self, speed: float) -> None:
         """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
         self._rotor_speed[0] = speed
@@ -221,18 +240,25 @@ class System:
 
 
 def port_connections(
-    rotor: str, bearings: Sequence[str], wiring: Wiring, *, moving: bool = False
+    rotor: str, bearings: Sequence[str], wiring: Wiring, *, moving: bool = False, turning: bool = False
 ) -> Iterator[Connection]:
-    """Connections of the port between units of these names; `moving`: the rotor moves the housings, too."""
+    """Connections of the port between units of these names.
+
+    With `moving` the rotor moves the housings, with `turning` it owns the speed, too.
+    """
     sources = port.LAW if wiring is Wiring.LAW else port.FORCE
     for index, bearing in enumerate(bearings, 1):
         for name in (*port.JOURNAL, *(port.HOUSING if moving else ())):
             yield Connection(rotor, port.at_bearing(index, name), bearing, name)
         for output, name in zip(sources, port.LAW, strict=False):
             yield Connection(bearing, output, rotor, port.at_bearing(index, name))
+        if turning:
+            yield Connection(rotor, port.ROTATION, bearing, port.SPEED)
+            power = port.at_bearing(index, port.FRICTION_POWER)
+            yield Connection(bearing, port.FRICTION_POWER, rotor, power)
 
 
-def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
+def check_port(rotor: Unit, bearings: Sequence[Unit], *, turning: bool = False) -> None:
     """Compare the units with the port.
 
     Raises
@@ -242,33 +268,18 @@ def check_port(rotor: Unit, bearings: Sequence[Unit]) -> None:
     """
     by_name = {v.name: v for v in port.rotor([b.name for b in bearings], (), 0)}
     needed = (port.SPEED, *_at_bearings(len(bearings), (*port.LAW, *port.JOURNAL)))
-    problems = list(_differences(rotor, (by_name[name] for name in needed)))
+    needed += (port.RELEASED, port.VACUUM_BROKEN, port.ROTATION) if turning else ()
+    problems = list(differences(rotor, (by_name[name] for name in needed)))
     seen = set()
     for bearing in bearings:
         if bearing.file not in seen:
             seen.add(bearing.file)
-            problems += _differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS, *_OFFSETS))
+            problems += differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS, *_OFFSETS))
     surplus = port.at_bearing(len(bearings) + 1, port.JOURNAL[0])
     if surplus in rotor.file.variables:
         problems.append(f"{rotor.file.path}: has more than the {len(bearings)} bearings of the train")
     if problems:
         raise PortError("\n".join(problems))
-
-
-def _differences(unit: Unit, variables: Iterable[port.Variable]) -> Iterator[str]:
-    variables = tuple(variables)
-    others = unit.file.variables.keys() - {variable.name for variable in variables}
-    for wanted in variables:
-        found = unit.file.variables.get(wanted.name)
-        where = f"{unit.file.path}: {wanted.name}"
-        if found is None:
-            hint = likely(wanted.name, sorted(others)).strip()
-            kind = f"{wanted.causality}, {wanted.unit or 'dimensionless'}"
-            yield f"{where} is missing ({kind})" + (f"; {hint}" if hint else "")
-        elif found.causality != wanted.causality or found.type != wanted.kind:
-            yield f"{where} is {found.causality} {found.type}, not {wanted.causality} {wanted.kind}"
-        elif (found.unit or "") not in ("", wanted.unit):
-            yield f"{where} is in {found.unit}, not in {wanted.unit or 'no unit'}"
 
 
 def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:

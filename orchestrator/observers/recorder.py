@@ -51,7 +51,17 @@ KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 
 SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")
 FIELDS = ("x", "y", "amplitude", "stress")
-_KEPT_ARRAYS = ("times", "journals", "responses", "extremes", "shaft", "fields", "housings", "foundation")
+_KEPT_ARRAYS = (
+    "times",
+    "journals",
+    "responses",
+    "extremes",
+    "shaft",
+    "fields",
+    "housings",
+    "foundation",
+    "speeds",
+)
 
 
 class Recorder(Observer):
@@ -88,6 +98,7 @@ class Recorder(Observer):
         self._extremes = np.empty((capacity, bearings, len(EXTREMES)))
         self._shaft = np.empty((capacity, len(SHAFT)))
         self._fields = np.empty((capacity, len(FIELDS), nodes), dtype=np.float32)
+        self._speeds = np.empty(capacity)
         moving = bearings if system.housings is not None else 0
         self._housings = np.empty((capacity, moving, 8))
         self._foundation = np.empty((capacity, moving, len(port.FOUNDATION)))
@@ -145,6 +156,7 @@ class Recorder(Observer):
     def _keep(self, time: float) -> None:
         k = self.size
         self._times[k] = time
+        self._speeds[k] = self._system.speed
         self._journals[k] = self._system.journals
         self._responses[k] = self._system.responses[:, _KEPT]
         np.multiply(self._since, _SIGN, out=self._extremes[k])
@@ -175,6 +187,11 @@ class Recorder(Observer):
     def times(self) -> Array:
         """Instants of the records, (records,)."""
         return self._times[: self.size]
+
+    @property
+    def speeds(self) -> Array:
+        """Speeds of the rotor, (records,)."""
+        return self._speeds[: self.size]
 
     @property
     def journals(self) -> Array:

@@ -107,6 +107,7 @@ def make_record(
         **_bearing_variables(recorder),
         **_shaft_variables(recorder),
         **_foundation_variables(recorder),
+        **_rotation_variables(recorder, scenario),
         **train_variables(scenario, train),
         "offset": (("bearing", "axis"), start.offsets[:, :2], _words("m", "bearing centre")),
         "offset_tilt": (
@@ -179,6 +180,12 @@ def _shaft_variables(recorder: Recorder) -> dict[str, Variable]:
     stress = _words("Pa", "normal stress from bending, both planes combined")
     result["stress"] = (("time", "node"), recorder.field("stress"), stress)
     return result
+
+
+def _rotation_variables(recorder: Recorder, scenario: Scenario) -> dict[str, Variable]:
+    """The speed over time where it changes."""
+    words = _words("rad/s", "speed of rotation")
+    return {"rotation_speed": (("time",), recorder.speeds, words)} if scenario.turns else {}
 
 
 def _foundation_variables(recorder: Recorder) -> dict[str, Variable]:

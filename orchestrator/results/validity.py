@@ -163,6 +163,8 @@ def grown(record: xr.Dataset) -> str:
     time = record["time"].values
     end = next(iter(instants(record)), float(time[-1]))
     schedule = from_attributes(record.attrs)
+    if schedule.course:
+        return ""  # what turns with the shaft has no frequency of its own
     span = schedule.later(0.0, OBSERVED)
     windows = [(time >= start - 1e-9) & (time <= start + span + 1e-9) for start in (time[0], end - span)]
     if end - time[0] < 2.0 * span or min(np.count_nonzero(w) for w in windows) < 4 * (2 * HARMONICS + 1):

@@ -7,11 +7,13 @@ A kind of event is one class: its keys in the scenario, the parameters that it s
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import PlainValidator, SerializeAsAny, ValidationError
+from pydantic import Field, PlainValidator, SerializeAsAny, ValidationError, model_validator
 
+from fmus import port
 from orchestrator.scenario.fields import Angle, Model, NotNegative, Positive
 from rotor_fmu.train.train import Train
 
@@ -36,6 +38,11 @@ class Event(Model):
     noun: ClassVar[str]
     kind: str
     time: NotNegative
+
+    @property
+    def timed(self) -> bool:
+        """Whether its instant is known beforehand."""
+        return math.isfinite(self.time)
 
     @property
     def text(self) -> str:
@@ -73,16 +80,71 @@ class BladeLoss(Event):
         return f"{self.label} at {self.wheel}"
 
     def parameters(self, train: Train) -> Values:
-        """Parameters of the rotor that it sets."""
-        index = 1 + [wheel.name for wheel in train.wheels].index(self.wheel)
+        """Parameters of the rotor that it sets, if it is the first, and the only one at its wheel."""
+        index = self.wheel_number(train)
         return {
             "fracture.time": self.time,
             f"wheel[{index}].blade_unbalance": self.unbalance,
             f"wheel[{index}].blade_phase": self.phase,
         }
 
+    def wheel_number(self, train: Train) -> int:
+        """Number of its wheel, from 1."""
+        return 1 + [wheel.name for wheel in train.wheels].index(self.wheel)
 
-KINDS: dict[str, type[Event]] = {"blade-loss": BladeLoss}
+
+class Switch(Event):
+    """Something that an input of the rotor switches, at an instant or as soon as a condition holds.
+
+    Attributes
+    ----------
+    time : float
+        Instant in s; without one a condition must be given.
+    vibration : float or None
+        Condition: a journal moves further than this from where it started, in its bearing, in m.
+    least_gap : float or None
+        Condition: the least gap of a bearing is below this, in m.
+    speed : float or None
+        Condition: the speed has fallen below this, in rad/s.
+    lasting : float
+        How long a condition must hold before it counts, in s; a vibration is taken to go on for a revolution.
+    """
+
+    input: ClassVar[str]
+    time: Annotated[float, Field(ge=0.0)] = math.inf
+    vibration: Positive | None = None
+    least_gap: float | None = None
+    speed: Positive | None = None
+    lasting: NotNegative = 0.0
+
+    @model_validator(mode="after")
+    def _has_one_cause(self) -> Switch:
+        causes = [self.vibration, self.least_gap, self.speed]
+        given = sum(cause is not None for cause in causes) + self.timed
+        if given != 1:
+            raise ValueError("allowed is one of time, vibration, least_gap and speed")
+        return self
+
+
+class Trip(Switch):
+    """The machine is tripped: nothing drives the rotor any more, which slows down by itself."""
+
+    label: ClassVar[str] = "trip"
+    noun: ClassVar[str] = "trip"
+    input: ClassVar[str] = port.RELEASED
+    kind: Literal["trip"] = "trip"
+
+
+class VacuumBreak(Switch):
+    """The vacuum is broken: from now on the windage is `rotation.windage_broken`."""
+
+    label: ClassVar[str] = "vacuum broken"
+    noun: ClassVar[str] = "vacuum break"
+    input: ClassVar[str] = port.VACUUM_BROKEN
+    kind: Literal["vacuum-break"] = "vacuum-break"
+
+
+KINDS: dict[str, type[Event]] = {"blade-loss": BladeLoss, "trip": Trip, "vacuum-break": VacuumBreak}
 """The kinds of events by their name."""
 DEFAULT = "blade-loss"
 """What a table without a kind describes."""
@@ -110,17 +172,18 @@ AnyEvent = Annotated[SerializeAsAny[Event], PlainValidator(event_of)]
 """An event of any kind."""
 
 
-def contradictions(events: Sequence[Event]) -> Iterator[tuple[int, str, str]]:
-    """Yield index, key and reason of what the rotor cannot do: it has one instant, and one blade a wheel."""
-    losses = [(index, event) for index, event in enumerate(events) if isinstance(event, BladeLoss)]
-    wheels: set[str] = set()
-    for index, loss in losses:
-        first = losses[0][1].time
-        if loss.time != first:
-            yield index, "time", f"allowed is {first!r} s, as of the first: blades break at one instant"
-        elif loss.wheel in wheels:
-            yield index, "wheel", "allowed is another wheel: one blade breaks at each"
-        wheels.add(loss.wheel)
+def loss_parameters(events: Sequence[Event], train: Train) -> Values:
+    """Parameters of the rotor for the blades lost: those of the first instant, and a list of the others."""
+    losses = sorted((e for e in events if isinstance(e, BladeLoss)), key=lambda loss: loss.time)
+    values: Values = {}
+    others = []
+    for loss in losses:
+        given = loss.parameters(train)
+        if loss.time == losses[0].time and values.keys().isdisjoint(given.keys() - {"fracture.time"}):
+            values |= given
+        else:
+            others.append([loss.time, loss.wheel_number(train), loss.unbalance, loss.phase])
+    return values | ({port.LOSSES: json.dumps(others)} if others else {})
 
 
 def to_json(events: Sequence[Event]) -> str:

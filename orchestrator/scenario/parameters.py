@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 from bearing_fmu.depths import LINEAR
 from fmus import port
-from orchestrator.scenario.events import Values
+from orchestrator.scenario.events import Values, loss_parameters
 from orchestrator.scenario.scenario import FilmSettings, Scenario
 from rotor_fmu.train.train import BearingSeat, Train
 
@@ -49,9 +50,12 @@ def rotor_parameters(scenario: Scenario, train: Train) -> Values:
         values[f"wheel[{index}].unbalance_phase"] = phase
         values[f"wheel[{index}].blade_unbalance"] = 0.0
         values[f"wheel[{index}].blade_phase"] = 0.0
-    for event in scenario.events:
-        values |= event.parameters(train)
-    return values
+    rotation = scenario.rotation
+    if rotation is not None:
+        names = ("inertia", "windage", "windage_broken")
+        values |= {f"drive.{name}": getattr(rotation, name) for name in names}
+        values |= {port.COURSE: json.dumps(rotation.course)} if rotation.course else {}
+    return values | loss_parameters(scenario.events, train)
 
 
 def wheel_unbalances(scenario: Scenario, train: Train) -> list[tuple[float, float]]:

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from bearing_fmu import depths
 from bearing_fmu.depths import LINEAR
-from orchestrator.scenario.events import KINDS, BladeLoss, Event, contradictions
+from orchestrator.scenario.events import KINDS, BladeLoss, Event, Switch, Trip
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from rotor_fmu.train.toml_source import Location, Problem
 from rotor_fmu.train.train import Train
@@ -104,7 +104,9 @@ def unbalance_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
 
 def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
     """Yield contradictions between the times of the scenario and of the train."""
-    longest = 2.0 * math.pi / train.speed / STEPS_PER_REVOLUTION
+    course = scenario.rotation.course if scenario.rotation is not None else None
+    fastest = max(abs(speed) for _, speed in course) if course else train.speed
+    longest = 2.0 * math.pi / fastest / STEPS_PER_REVOLUTION
     if scenario.step > longest:
         yield (
             ("step",),
@@ -132,7 +134,7 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
     if scenario.step > scenario.end:
         yield ("step",), f"step = {scenario.step!r}; allowed is at most the end time, {scenario.end!r} s"
     for index, event in enumerate(scenario.events):
-        if event.time >= scenario.end:
+        if event.timed and event.time >= scenario.end:
             yield (
                 ("events", index, "time"),
                 f"events.{index}.time = {event.time!r}; allowed is a time before the end, {scenario.end!r} s "
@@ -170,10 +172,19 @@ def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
 
 
 def event_problems(scenario: Scenario) -> Iterator[Problem]:
-    """Yield events that exclude one another."""
-    for index, key, reason in contradictions(scenario.events):
-        value = getattr(scenario.events[index], key)
-        yield ("events", index, key), f"events.{index}.{key} = {value!r}; {reason}"
+    """Yield events that lack what they need."""
+    rotation = scenario.rotation
+    for index, event in enumerate(scenario.events):
+        if not isinstance(event, Switch):
+            continue
+        place = ("events", index, "kind")
+        if rotation is None:
+            yield place, f"events.{index}.kind = {event.kind!r}; allowed is it beside a table rotation"
+        elif isinstance(event, Trip) and not rotation.inertia > 0.0:
+            yield (
+                place,
+                f"events.{index}.kind = {event.kind!r}; allowed is it beside rotation.inertia above 0",
+            )
 
 
 def depth_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:

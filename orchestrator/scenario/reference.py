@@ -16,6 +16,7 @@ from pydantic.fields import FieldInfo
 
 from bearing_fmu import depths
 from orchestrator.scenario.events import KINDS
+from orchestrator.scenario.rotation import Rotation
 from orchestrator.scenario.scenario import (
     COUPLINGS,
     REDUCTIONS,
@@ -44,6 +45,7 @@ _TABLES: tuple[tuple[str, type[BaseModel]], ...] = (
     ("", Scenario),
     ("film.", FilmSettings),
     ("record.", RecordSettings),
+    ("rotation.", Rotation),
     ("unbalance.", Unbalance),
     ("unbalance.at.WHEEL.", WheelUnbalance),
     *((f"events ({name}).", kind) for name, kind in KINDS.items()),

@@ -18,6 +18,7 @@ from bearing_fmu import depths
 from fmus import port
 from orchestrator.scenario.events import AnyEvent
 from orchestrator.scenario.fields import Angle, Grade, Interval, Model, NotNegative
+from orchestrator.scenario.rotation import Rotation, speed_on
 
 Reduction = Literal["irs", "irs-plain", "guyan", "craig-bampton", "none"]
 CouplingName = Literal["linear-implicit", "multirate", "newton", "iqn-ils", "gauss-seidel", "jacobi"]
@@ -151,6 +152,8 @@ class Scenario(Model):
         Nominal unbalance.
     events : tuple of Event
         What happens, `orchestrator.scenario.events`. A file may have one as the table ``[event]``.
+    rotation : Rotation or None
+        How the rotor turns, where its speed changes.
     end : float
         End time in s.
     step : float
@@ -186,6 +189,7 @@ class Scenario(Model):
     linear_from: FilmDepth = depths.films()[0]
     unbalance: Unbalance = Unbalance()
     events: Annotated[tuple[AnyEvent, ...], Field(strict=False)] = ()
+    rotation: Rotation | None = None
     end: Interval
     step: Interval = 1e-4
     tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
@@ -195,6 +199,16 @@ class Scenario(Model):
     record: RecordSettings = RecordSettings()
     analysed_bearing: str | None = None
     folder: Path = Field(default=Path(), exclude=True)
+
+    @property
+    def turns(self) -> bool:
+        """Whether its speed changes, or may."""
+        return self.rotation is not None
+
+    def start_speed(self, rated: float) -> float:
+        """Speed at the start, of a train of this rated speed [rad/s]."""
+        course = self.rotation.course if self.rotation is not None else None
+        return speed_on(course, 0.0) if course else rated
 
     def depth_of(self, bearing: str) -> str:
         """Depth of the bearing of this name."""

@@ -72,9 +72,10 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
     train = train_of(scenario)
     with tempfile.TemporaryDirectory(prefix="bladeloss_ssp_") as temporary, FmuStore() as store:
         made = list(parts_in_folder(scenario, train, fmus, store))
-        system = join(made, scenario, train.speed, fmus)
+        speed = scenario.start_speed(train.speed)
+        system = join(made, scenario, speed, fmus)
         try:
-            start = find_start(system, train, train.speed)
+            start = find_start(system, train, speed)
             parts = _Parts(scenario, train, {part.name: part.parameters for part in made}, Path(temporary))
             components = tuple(parts.components(system, start))
         finally:
@@ -87,7 +88,9 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
                 title=scenario.title,
                 components=components,
                 connections=tuple(
-                    port_connections(ROTOR, bearings, wiring, moving=train.has_moving_housings)
+                    port_connections(
+                        ROTOR, bearings, wiring, moving=train.has_moving_housings, turning=scenario.turns
+                    )
                 ),
                 end=scenario.end,
                 step=scenario.step,

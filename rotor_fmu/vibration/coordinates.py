@@ -9,6 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor_fmu.vibration.detuning import Detuning
+
 Array = NDArray[np.float64]
 
 
@@ -123,3 +125,6 @@ class Coordinates(Protocol):
 
         `harmonic`, (m, 2 h), holds modal forces, a pair (factor of cos theta, factor of sin theta) an input.
         """
+
+    def detuning(self, speed: float, step: float) -> Detuning:
+        """What a speed off `speed`, and its change, do to a step."""

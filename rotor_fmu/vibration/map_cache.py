@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import CondensedShaft
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.harmonic_shaft import condense_harmonic
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.prepared import PreparedShaft
 from rotor_fmu.vibration.state_space import ModalCoordinates
 from rotor_fmu.vibration.supported import SupportedCoordinates
+from rotor_fmu.vibration.turning import DetunedMaps, Turning
 from rotor_fmu.vibration.unbalance import Unbalance
 from rotor_fmu.vibration.whirl_coordinates import whirl_coordinates
 from rotor_fmu.vibration.work import WorkMaps, work_maps
@@ -56,6 +58,8 @@ class MapCache:
         self._steps: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
         self._kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
+        self._unit_kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
+        self._detunings: OrderedDict[tuple[float, float], tuple[Maps, Detuning]] = OrderedDict()
         self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
 
     def coordinates(self, speed: float | None) -> Coordinates:
@@ -77,27 +81,42 @@ class MapCache:
         length = self._settled(speed, step, end)
         return _recall(self._steps, (speed, length), lambda: self._new_step(speed, length))
 
+    def turned(self, turning: Turning, end: float = 0.0) -> DetunedMaps:
+        """Maps over a step in which the speed changes, for unbalances whose pull is `Turning.pull`."""
+        speed = turning.reference
+        length = self._settled(speed, turning.step, end)
+        base, detuning = _recall(self._detunings, (speed, length), lambda: self._new_detuning(speed, length))
+        return DetunedMaps(base, detuning, turning.mean - speed, turning.acceleration)
+
     def work(self, speed: float, step: float, end: float = 0.0) -> WorkMaps:
         """Works over a step of which `step` has been asked, or over a part of one."""
         length = self._settled(speed, step, end)
         return _recall(self._works, (speed, length), lambda: self._new_work(speed, length))
 
-    def kick(self, speed: float, duration: float, angle: float) -> Array:
-        """Motion after `duration` from rest under the lost blade's unbalance, from `angle` on, (2 m,)."""
+    def kick(self, speed: float, duration: float, angle: float, loss: int = 1) -> Array:
+        """Motion after `duration` from rest under the unbalance of a loss, from `angle` on, (2 m,)."""
         maps = _recall(self._kicks, (speed, duration), lambda: self._new_step(speed, duration))
-        states, loads = 2 * self._shaft.size, len(self._shaft.bearing)
-        turn = np.array([0.0, 0.0, math.cos(angle), math.sin(angle)])
-        return maps.coast(np.zeros(states), np.zeros(loads), turn)
+        return self._pushed(maps, complex(math.cos(angle), math.sin(angle)), loss)
+
+    def turned_kick(self, turning: Turning, speed: float, loss: int = 1) -> Array:
+        """The same at changing speed, in the coordinates of a speed of the grid."""
+        maps = _recall(self._unit_kicks, (speed, turning.step), lambda: self._unit_maps(speed, turning.step))
+        return self._pushed(maps, turning.pull(speed), loss)
+
+    def _pushed(self, maps: Maps, pull: complex, loss: int) -> Array:
+        turn = np.zeros(2 + 2 * len(self._unbalance.losses))
+        turn[2 * loss : 2 * loss + 2] = pull.real, pull.imag
+        return maps.coast(np.zeros(2 * self._shaft.size), np.zeros(len(self._shaft.bearing)), turn)
 
     def harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         """Steady vibration under the nominal unbalance, condensed onto the journals."""
         return _recall(self._harmonics, speed, lambda: self._new_harmonic(speed))
 
     def _settled(self, speed: float, step: float, end: float) -> float:
-        if (speed, step) in self._steps:
+        if (speed, step) in self._steps or (speed, step) in self._detunings:
             return step
         noise = _ROUNDING * (abs(end) + step)
-        known = (other for at, other in self._steps if at == speed)
+        known = (other for kept in (self._steps, self._detunings) for at, other in kept if at == speed)
         candidates = (float(f"{step:.8e}"), *known)
         return next((other for other in candidates if abs(other - step) <= noise), step)
 
@@ -109,16 +128,18 @@ class MapCache:
         foundation = self._foundation
         return SupportedCoordinates(shaft, foundation, 2 * self._bare.size) if foundation else shaft
 
-    def _forces(self, shaft: ModalShaft, speed: float) -> Array:
-        nominal = self._unbalance.nominal_force(shaft, speed)
-        blade = self._unbalance.blade_force(shaft, speed)
-        return np.hstack([nominal, blade])
-
     def _new_step(self, speed: float, step: float) -> Maps:
-        return self.coordinates(speed).maps(speed, step, self._forces(self._bare, speed))
+        return self.coordinates(speed).maps(speed, step, self._unbalance.forces(self._bare, speed))
+
+    def _new_detuning(self, speed: float, step: float) -> tuple[Maps, Detuning]:
+        return self._unit_maps(speed, step), self.coordinates(speed).detuning(speed, step)
+
+    def _unit_maps(self, speed: float, step: float) -> Maps:
+        """Maps for unbalances whose pull per kg m is given with each step."""
+        return self.coordinates(speed).maps(speed, step, self._unbalance.forces(self._bare, 1.0))
 
     def _new_work(self, speed: float, step: float) -> WorkMaps:
-        return work_maps(self._shaft, speed, step, self._forces(self._shaft, speed))
+        return work_maps(self._shaft, speed, step, self._unbalance.forces(self._shaft, speed))
 
     def _new_harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         nominal = self._unbalance.nominal_force(self._shaft, speed)

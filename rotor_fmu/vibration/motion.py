@@ -122,6 +122,11 @@ class RotorMotion:
         k = self.foundation.size
         return self._state.motion[-2 * k :].reshape(2, k)
 
+    @property
+    def speed(self) -> float:
+        """Speed of rotation now [rad/s]."""
+        return self._speed if self._state.turning is None else self._state.turning
+
     def static_wrench(self) -> Array:
         """Wrenches that hold the shaft in the static equilibrium of the start, (n_b, 4) in N, N m."""
         return self._state.static.wrench.reshape(-1, 4).copy()
@@ -160,6 +165,8 @@ class RotorMotion:
         if sizes != allowed:
             raise ValueError(f"rotor: state with arrays of {sizes} numbers, allowed are {allowed}")
         coordinates = self._maps.coordinates(state.speed)
+        if state.turning is None:
+            state = replace(state, turning=self._speed)
         if not state.basis:
             state = replace(state, motion=coordinates.from_modal(state.motion), basis=coordinates.basis)
         elif state.basis != coordinates.basis:

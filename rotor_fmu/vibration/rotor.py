@@ -10,10 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 from rotor_fmu.reduction.reduce import Method
 from rotor_fmu.train.train import Train
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
+from rotor_fmu.vibration.coordinates import Coordinates, Maps
 from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.state import RotorState
-from rotor_fmu.vibration.unbalance import Unbalance
+from rotor_fmu.vibration.turning import Turning
+from rotor_fmu.vibration.unbalance import Unbalance, losses_of
 from rotor_fmu.vibration.work import Work, WorkLedger
 
 Array = NDArray[np.float64]
@@ -43,10 +45,10 @@ class Rotor(RotorMotion):
 
     Notes
     -----
-    The speed is constant within a step.  When it changes from step to step the angle
-    of rotation goes on without a jump and the force of the unbalance is U speed^2; the
-    tangential force of an angular acceleration is left out.  The modes are found anew at each new
-    speed, which takes a thousand times as long as a step.
+    The speed runs linearly through a step, from that at the end of the step before.  Its change acts on the
+    unbalance, with the tangential force, and on the gyroscopic moments.  While it changes, steps are taken in
+    modes of a grid of speeds (`rotor_fmu.vibration.detuning`); each new one takes a thousand times as
+    long as a step.
     """
 
     holds_mean = False
@@ -63,7 +65,7 @@ class Rotor(RotorMotion):
     ) -> None:
         super().__init__(shaft, unbalance, gravity=gravity, speed=speed)
         self._stepper = AffineStep(self.shaft.bearings)
-        self._ledger = WorkLedger(self.shaft, self._maps.work) if track_work else None
+        self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance) if track_work else None
 
     @classmethod
     def of_train(
@@ -78,6 +80,7 @@ class Rotor(RotorMotion):
         blade_unbalance: ArrayLike | None = None,
         blade_phase: ArrayLike | None = None,
         fracture_time: float = math.inf,
+        losses: str = "",
         track_work: bool = False,
     ) -> Rotor:
         """The rotor of a train.
@@ -98,11 +101,19 @@ class Rotor(RotorMotion):
             Unbalance added by the blade fracture and its angle at t = 0; default none.
         fracture_time : float
             Instant of the fracture [s].
+        losses : str
+            What is lost besides, see `rotor_fmu.vibration.unbalance.losses_of`.
         track_work : bool
             As for the class.
         """
         excitation = Unbalance.of_train(
-            train, unbalance, unbalance_phase, blade_unbalance, blade_phase, fracture_time
+            train,
+            unbalance,
+            unbalance_phase,
+            blade_unbalance,
+            blade_phase,
+            fracture_time,
+            losses_of(losses, len(train.wheels)),
         )
         return cls(
             prepare_shaft(train, reduction),
@@ -124,7 +135,7 @@ class Rotor(RotorMotion):
         F0, K, C : ndarray, (n_b, 4), (n_b, 4, 4), (n_b, 4, 4)
             The law of each bearing, valid through the step.
         speed : float
-            [rad/s].
+            At the end of the step [rad/s].
 
         Raises
         ------
@@ -135,35 +146,45 @@ class Rotor(RotorMotion):
         """
         if not (math.isfinite(H) and H > 0.0 and math.isfinite(speed)):
             raise ValueError(f"rotor: step H = {H} s at {speed} rad/s; allowed are H > 0 and finite numbers")
-        state, journals = self._state, self._journals
-        angle, fracture = state.angle, self.unbalance.fracture_time
-        cos, sin = math.cos(angle), math.sin(angle)
-        broken = 1.0 if fracture <= t else 0.0
-        kick = None
-        if t < fracture < t + H:
-            kick = self._maps.kick(speed, t + H - fracture, angle + speed * (fracture - t))
-        coordinates = self._maps.coordinates(speed)
+        turning = Turning(self._state.angle, self.speed, speed, H)
+        coordinates, maps, rotation, kick = self._at(turning, t)
         self._stepper.set_law(K, C)
+        state, journals = self._state, self._journals
         end, nearer = self._stepper.advance(
-            coordinates,
-            self._maps.step(speed, H, t + H),
-            self._motion_in(coordinates),
-            journals,
-            F0,
-            np.array([cos, sin, broken * cos, broken * sin]),
-            kick,
-            state.static,
+            coordinates, maps, self._motion_in(coordinates), journals, F0, rotation, kick, state.static
         )
         self.holds_mean = nearer is not None
         work = state.work
         if self._ledger is not None:
             after = journal_motion(coordinates, end, state.static)
             held = self._stepper.held(nearer, F0, journals, after, state.static)
-            turn = (angle, speed)
-            done = self._ledger.over_step((t, H), fracture, turn, self.modal_state(), held, state.static)
+            if turning.start == turning.end:
+                turn = (state.angle, speed)
+                done = self._ledger.over_step((t, H), turn, self.modal_state(), held, state.static)
+            else:
+                states = self.modal_state(), coordinates.to_modal(end)
+                done = self._ledger.over_turned_step(t, turning, states, held, state.static)
             work = Work(*(a + b for a, b in zip(work, done, strict=True)))
-        turned = math.fmod(angle + speed * H, 2.0 * math.pi)
-        self.set_state(RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work))
+        turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
+        self.set_state(
+            RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work, speed)
+        )
+
+    def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:
+        """Coordinates and maps of a step, rotation of the unbalances, and the kick of what appears in it."""
+        end, kicks = t + turning.step, []
+        if turning.start == turning.end:
+            speed, angle = turning.start, turning.angle
+            pull = complex(math.cos(angle), math.sin(angle))
+            for loss, at in self.unbalance.inside(t, end):
+                kicks.append(self._maps.kick(speed, end - at, angle + speed * (at - t), loss))
+            coordinates, maps = self._maps.coordinates(speed), self._maps.step(speed, turning.step, end)
+        else:
+            pull = turning.pull()
+            for loss, at in self.unbalance.inside(t, end):
+                kicks.append(self._maps.turned_kick(turning.part(at - t), turning.reference, loss))
+            coordinates, maps = self._maps.coordinates(turning.reference), self._maps.turned(turning, end)
+        return coordinates, maps, self.unbalance.turned(t, pull), sum(kicks[1:], kicks[0]) if kicks else None
 
     def work(self) -> Work:
         """Works since the start [J]; the rotor must keep account of them (`track_work`)."""

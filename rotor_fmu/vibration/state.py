@@ -14,8 +14,8 @@ from rotor_fmu.vibration.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3q5d16s")
-_MAGIC = b"rotor\0\0\3"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s3q6d16s")
+_MAGIC = b"rotor\0\0\4"  # the last byte is the version of the layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +36,8 @@ class RotorState:
         Their fingerprint, 16 bytes; empty where the motion is (p, p').
     work : Work
         Done since the start, if the rotor keeps account of it.
+    turning : float or None
+        Speed of rotation now [rad/s]; None for that of the start.
     """
 
     motion: Array
@@ -44,13 +46,14 @@ class RotorState:
     speed: float | None = None
     basis: bytes = b""
     work: Work = field(default_factory=Work)
+    turning: float | None = None
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
         static = self.static
         sizes = (len(self.motion), len(static.shape), len(static.wrench))
-        speed = math.nan if self.speed is None else self.speed
-        header = _HEADER.pack(_MAGIC, *sizes, self.angle, speed, *self.work, self.basis)
+        speeds = (math.nan if speed is None else speed for speed in (self.speed, self.turning))
+        header = _HEADER.pack(_MAGIC, *sizes, self.angle, *speeds, *self.work, self.basis)
         arrays = (self.motion, static.shape, static.journals, static.wrench)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
@@ -65,11 +68,12 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, angle, speed, *work, basis = _HEADER.unpack_from(data)
+        _, states, displacements, loads, angle, *numbers, basis = _HEADER.unpack_from(data)
         sizes = (states, displacements, loads, loads)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
-        numbers = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
-        motion, shape, journals, wrench = np.split(numbers, np.cumsum(sizes)[:-1])
+        values = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
+        motion, shape, journals, wrench = np.split(values, np.cumsum(sizes)[:-1])
+        speed, turning = (None if math.isnan(speed) else speed for speed in numbers[:2])
         static = Equilibrium(shape, journals, wrench)
-        return cls(motion, angle, static, None if math.isnan(speed) else speed, basis, Work(*work))
+        return cls(motion, angle, static, speed, basis, Work(*numbers[2:]), turning)

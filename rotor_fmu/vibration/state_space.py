@@ -21,6 +21,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from rotor_fmu.vibration.coordinates import Compliance, fingerprint
+from rotor_fmu.vibration.detuning import Detuning, dense_detuning
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
@@ -87,6 +88,13 @@ class ModalCoordinates:
     def maps(self, speed: float, step: float, harmonic: Array) -> StepMaps:
         """Maps over a step."""
         return step_maps(self._shaft, speed, step, harmonic)
+
+    def detuning(self, speed: float, step: float) -> Detuning:
+        """What a speed off `speed`, and its change, do to a step."""
+        m = self._shaft.size
+        of_rates, of_displacements = np.zeros((2, 2 * m, 2 * m))
+        of_rates[m:, m:] = of_displacements[m:, :m] = -self._shaft.G
+        return dense_detuning(state_matrix(self._shaft, speed), (of_rates, of_displacements), step)
 
 
 def state_matrix(shaft: ModalShaft, speed: float) -> Array:

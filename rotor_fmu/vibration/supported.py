@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from rotor_fmu.foundation.foundation import Foundation
 from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps, fingerprint
+from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
@@ -38,6 +39,18 @@ def supported(shaft: ModalShaft, foundation: Foundation | None) -> ModalShaft:
         wheels=widened(shaft.wheels),
         T=widened(shaft.T),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _OfShaft(Detuning):
+    """Of the first numbers of the motion alone."""
+
+    states: int
+
+    def moved(self, motion: Array, difference: float, acceleration: float) -> Array:
+        after = np.zeros_like(motion)
+        after[: self.states] = super().moved(motion[: self.states], difference, acceleration)
+        return after
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +128,10 @@ class SupportedCoordinates:
     def housings(self, motion: Array) -> Array:
         """Displacements and velocities of the housings, (n_b, 8)."""
         return self._foundation.housings(*motion[self._states :].reshape(2, -1))
+
+    def detuning(self, speed: float, step: float) -> Detuning:
+        """What a speed off `speed`, and its change, do to a step of the shaft."""
+        return _OfShaft(self._shaft.detuning(speed, step).derivatives, self._states)
 
     def maps(self, speed: float, step: float, harmonic: Array) -> SupportedMaps:
         """Maps over a step."""

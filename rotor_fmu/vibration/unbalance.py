@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +14,14 @@ from rotor_fmu.train.train import Train
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
+
+
+class Loss(NamedTuple):
+    """Unbalance that appears at an instant [s]: amount [kg m] and phase [rad], (n_w,) each."""
+
+    time: float
+    amount: Array
+    phase: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +39,8 @@ class Unbalance:
         Unbalance added by the fracture and its angle at theta = 0.
     fracture_time : float
         Instant of the fracture [s]; infinity for none.
+    later : tuple of Loss
+        What is lost besides.
     """
 
     amount: Array
@@ -35,6 +48,7 @@ class Unbalance:
     blade_amount: Array
     blade_phase: Array
     fracture_time: float
+    later: tuple[Loss, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("amount", "phase", "blade_amount", "blade_phase"):
@@ -53,6 +67,7 @@ class Unbalance:
         blade_amount: ArrayLike | None,
         blade_phase: ArrayLike | None,
         fracture_time: float,
+        later: tuple[Loss, ...] = (),
     ) -> Unbalance:
         """Unbalance with the nominal one of the train, and no lost blade, where None is given."""
 
@@ -66,6 +81,7 @@ class Unbalance:
             blade_amount=per_wheel(blade_amount, nothing),
             blade_phase=per_wheel(blade_phase, nothing),
             fracture_time=fracture_time,
+            later=later,
         )
         if unbalance.amount.shape != nothing.shape:
             raise ValueError(f"unbalance: {unbalance.amount.shape} values, train has {len(nothing)} wheels")
@@ -75,9 +91,54 @@ class Unbalance:
         """Modal force of the nominal unbalance, factors of (cos theta, sin theta), (m, 2)."""
         return _force(shaft, self.amount, self.phase, speed)
 
-    def blade_force(self, shaft: ModalShaft, speed: float) -> Array:
-        """Modal force of the lost blade's unbalance, likewise."""
-        return _force(shaft, self.blade_amount, self.blade_phase, speed)
+    @property
+    def losses(self) -> tuple[Loss, ...]:
+        """All that appears during the run."""
+        return Loss(self.fracture_time, self.blade_amount, self.blade_phase), *self.later
+
+    def forces(self, shaft: ModalShaft, speed: float) -> Array:
+        """Modal forces of the nominal unbalance and of each loss, a pair of columns each, (m, 2 + 2 l)."""
+        lost = (_force(shaft, loss.amount, loss.phase, speed) for loss in self.losses)
+        return np.hstack([self.nominal_force(shaft, speed), *lost])
+
+    def turned(self, time: float, pull: complex) -> Array:
+        """Factors of the columns of `forces`: the pull of all that has appeared by now, (2 + 2 l,)."""
+        factors = np.zeros(2 + 2 * len(self.losses))
+        factors[:2] = pull.real, pull.imag
+        for index, loss in enumerate(self.losses, 1):
+            if loss.time <= time:
+                factors[2 * index : 2 * index + 2] = pull.real, pull.imag
+        return factors
+
+    def inside(self, start: float, end: float) -> Iterator[tuple[int, float]]:
+        """Yield number, from 1, and instant of the losses between two instants, both excluded."""
+        for index, loss in enumerate(self.losses, 1):
+            if start < loss.time < end:
+                yield index, loss.time
+
+
+def losses_of(text: str, wheels: int) -> tuple[Loss, ...]:
+    """Losses in a text, ``[[2.0, 1, 0.5, 0.0]]``: instant [s], number of the wheel from 1, kg m, rad.
+
+    Raises
+    ------
+    ValueError
+        Saying what is allowed.
+    """
+    if not text:
+        return ()
+    found = []
+    try:
+        for time, wheel, amount, phase in json.loads(text):
+            values = np.zeros((2, wheels))
+            values[:, range(wheels)[int(wheel) - 1]] = float(amount), float(phase)
+            if not np.isfinite([time, *values.ravel()]).all() or int(wheel) < 1:
+                raise ValueError
+            found.append(Loss(float(time), *values))
+    except (TypeError, ValueError, IndexError):
+        allowed = f"rows of an instant in s, a wheel from 1 to {wheels}, kg m and rad"
+        raise ValueError(f"losses = {text!r}; allowed are {allowed}") from None
+    return tuple(found)
 
 
 def _force(shaft: ModalShaft, amount: Array, phase: Array, speed: float) -> Array:

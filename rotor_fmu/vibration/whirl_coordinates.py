@@ -17,6 +17,7 @@ import scipy.linalg as sl
 from numpy.typing import NDArray
 
 from rotor_fmu.vibration.coordinates import Compliance, fingerprint
+from rotor_fmu.vibration.detuning import Detuning, block_detuning
 from rotor_fmu.vibration.first_order_hold import harmonic_hold, linear_hold
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import rotation_rate
@@ -150,6 +151,13 @@ class WhirlCoordinates:
         end = np.vstack([end, rising[:, None] * load[slow:]])
         of_start, of_end = (_as_real(self._journals @ part[:, : end.shape[1]]) for part in (start, end))
         return WhirlMaps(block, np.exp(self._rates * step), start, end, Compliance(of_start, of_end))
+
+    def detuning(self, speed: float, step: float) -> Detuning:
+        """What a speed off `speed`, and its change, do to a step."""
+        k = len(self._plane.omega)
+        gyroscopic = self._from_state[:, k:] @ (1j * self._plane.P)
+        directions = gyroscopic @ self._to_state[k:], gyroscopic @ self._to_state[:k]
+        return block_detuning(self._block, self._rates, directions, step)
 
     def _block_maps(self, step: float, load: Complex, pull: Complex) -> tuple[Complex, Complex, Complex]:
         """Block, start and end of the coupled motions by one exponential (Van Loan 1978)."""

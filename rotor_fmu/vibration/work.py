@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from typing import NamedTuple
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import augmented_matrix
+from rotor_fmu.vibration.turning import Turning
+from rotor_fmu.vibration.unbalance import Unbalance
 
 Array = NDArray[np.float64]
 
@@ -108,15 +111,19 @@ class WorkLedger:
         The shaft.
     maps : callable
         `WorkMaps` from speed, duration and instant at its end.
+    unbalance : Unbalance
+        Its excitation.
     """
 
-    def __init__(self, shaft: ModalShaft, maps: Callable[[float, float, float], WorkMaps]) -> None:
+    def __init__(
+        self, shaft: ModalShaft, maps: Callable[[float, float, float], WorkMaps], unbalance: Unbalance
+    ) -> None:
         self._shaft, self._maps = shaft, maps
+        self._unbalance, self._pull = unbalance, unbalance.forces(shaft, 1.0)
 
     def over_step(
         self,
         interval: tuple[float, float],
-        fracture: float,
         rotation: tuple[float, float],
         state: Array,
         wrenches: tuple[Array, Array],
@@ -128,8 +135,6 @@ class WorkLedger:
         ----------
         interval : tuple of float
             Instant at the start and length of the step [s].
-        fracture : float
-            Instant of the blade fracture [s].
         rotation : tuple of float
             Angle at the start [rad] and speed [rad/s].
         state : ndarray, (2 m,)
@@ -145,20 +150,53 @@ class WorkLedger:
             Of this step alone.
         """
         (t, H), (angle, speed), (w0, w1) = interval, rotation, wrenches
-        inside = fracture - t if t < fracture < t + H else None
-        pieces = [(0.0, H, fracture <= t)]
-        if inside is not None:
-            pieces = [(0.0, inside, False), (inside, H, True)]
+        inside = sorted({at - t for _, at in self._unbalance.inside(t, t + H)})
         x, total = state, np.zeros(3)
-        for a, b, is_broken in pieces:
+        for a, b in itertools.pairwise((0.0, *inside, H)):
             theta = angle + speed * a
-            turn = np.array([math.cos(theta), math.sin(theta)])
-            broken = turn if is_broken else 0.0 * turn
+            # In the middle of a piece, where rounding does not matter, it is clear what has appeared.
+            turned = self._unbalance.turned(t + 0.5 * (a + b), complex(math.cos(theta), math.sin(theta)))
             start = w0 + (w1 - w0) * (a / H)
-            z = np.concatenate([x, start, (w1 - w0) * ((b - a) / H), turn, broken])
+            z = np.concatenate([x, start, (w1 - w0) * ((b - a) / H), turned])
             piece = self._maps(speed, b - a, t + b)
             total += piece.work(z)
             x = piece.end @ z
         moved = self._shaft.bearing @ (x - state)[: self._shaft.size]
         total[0] += static.wrench @ moved
         return Work(*(float(w) for w in total))
+
+    def over_turned_step(
+        self,
+        t: float,
+        turning: Turning,
+        states: tuple[Array, Array],
+        wrenches: tuple[Array, Array],
+        static: Equilibrium[np.float64],
+    ) -> Work:
+        """Works over a step at changing speed, by Simpson's rule on a motion that is cubic in time.
+
+        The exact forms would have to be made anew for each step.  Of the unbalance counts all that the drive
+        does, the moments of its acceleration included.
+
+        Parameters
+        ----------
+        t, turning
+            Instant at the start [s], and how the rotor turns.
+        wrenches, static
+            As for `over_step`.
+        states : tuple of ndarray, (2 m,)
+            At both ends.
+        """
+        H, (w0, w1) = turning.step, wrenches
+        (p0, v0), (p1, v1) = (np.split(state, 2) for state in states)
+        p = p0, 0.5 * (p0 + p1) + 0.125 * H * (v0 - v1), p1
+        v = v0, 1.5 * (p1 - p0) / H - 0.25 * (v0 + v1), v1
+        drive = damping = 0.0
+        for at, weight, p_at, v_at in zip((0.0, 0.5, 1.0), (1.0, 4.0, 1.0), p, v, strict=True):
+            turned = self._unbalance.turned(t + at * H, turning.pull_at(at * H))
+            force = self._pull @ turned - turning.acceleration * (self._shaft.G @ p_at)
+            drive += weight * H / 6.0 * float(force @ v_at)
+            damping += weight * H / 6.0 * float(v_at @ (self._shaft.D @ v_at))
+        moved, turned = self._shaft.bearing @ (p1 - p0), self._shaft.bearing @ (v1 - v0)
+        bearings = (0.5 * (w0 + w1) + static.wrench) @ moved + (w1 - w0) @ turned * (H / 12.0)
+        return Work(float(bearings), drive, damping)

@@ -21,7 +21,14 @@ def test_every_variable_stands_in_the_tables(small_train):
 
 
 def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
-    bare = {"eccentricity", "sommerfeld", "contact.friction", "layer.poisson"}
+    bare = {
+        "eccentricity",
+        "sommerfeld",
+        "contact.friction",
+        "layer.poisson",
+        port.RELEASED,
+        port.VACUUM_BROKEN,
+    }
     for variable in (*port.BEARING, *port.rotor(["b"], ["w"], 2)):
         assert variable.description
         if variable.kind == "Real" and not variable.unit:

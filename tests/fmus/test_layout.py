@@ -19,8 +19,8 @@ def test_blocks_of_the_bearing():
 def test_blocks_of_a_rotor():
     variables = port.rotor(("front", "rear"), ("wheel",), 5)
     layout = Layout(variables)
-    assert layout.inputs == slice(0, 1 + 2 * 36)
-    assert layout.outputs == slice(73, 73 + 16)
+    assert layout.inputs == slice(0, 1 + 2 * 36 + 2 + 2)
+    assert layout.outputs == slice(77, 77 + 16 + 1)
     assert {variables[i].name for i in layout.lazy["extremes"]} == {
         "amplitude.max",
         "amplitude.max_z",

@@ -1,0 +1,55 @@
+"""What turns the rotor, as variables of the port."""
+
+from __future__ import annotations
+
+from fmus.port.connector import NOMINAL_SPEED
+from fmus.port.variable import Variable
+
+RELEASED, VACUUM_BROKEN = "drive.released", "drive.vacuum_broken"
+FRICTION_POWER = "friction_power"
+"""Of a bearing; of the rotor the input ``bearing[i].friction_power``."""
+ROTATION = "rotation.speed"
+COURSE, LOSSES = "speed.course", "losses"
+
+DRIVE_INPUTS = (
+    Variable(RELEASED, "input", "", "from 0.5 on nothing drives the rotor: it slows down by itself", 0.0),
+    Variable(VACUUM_BROKEN, "input", "", "from 0.5 on drive.windage_broken counts", 0.0),
+)
+ROTATION_OUTPUT = Variable(
+    ROTATION,
+    "output",
+    "rad/s",
+    "speed of rotation now; it may be connected to the speed of the bearings",
+    nominal=NOMINAL_SPEED,
+    starts_on=("speed",),
+)
+DRIVE_PARAMETERS = (
+    Variable(
+        COURSE,
+        "parameter",
+        "",
+        "speed over time as [[s, rad/s], ...], linear in between; empty: as the input",
+        "",
+        kind="String",
+    ),
+    Variable(
+        LOSSES,
+        "parameter",
+        "",
+        "more lost blades as [[s, number of the wheel, kg m, rad], ...]",
+        "",
+        kind="String",
+    ),
+    Variable(
+        "drive.inertia", "parameter", "kg.m2", "of the train about its axis, for drive.released", 0.0,
+        minimum=0.0, nominal=1e4,
+    ),
+    Variable(
+        "drive.windage", "parameter", "N.m.s2", "torque of the windage over the square of the speed", 0.0,
+        minimum=0.0, nominal=1.0,
+    ),
+    Variable(
+        "drive.windage_broken", "parameter", "N.m.s2", "the same with the vacuum broken", 0.0,
+        minimum=0.0, nominal=1.0,
+    ),
+)  # fmt: skip

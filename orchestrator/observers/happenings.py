@@ -1,0 +1,101 @@
+"""Switches what an event switches, when its instant comes or its condition has held long enough."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.master.coupling import Advance
+from orchestrator.master.observer import Observer
+from orchestrator.master.stepping import Stepper
+from orchestrator.master.system import RESPONSE, System
+from orchestrator.scenario.events import Event, Switch
+
+Array = NDArray[np.float64]
+
+_INSTANT = 1e-12
+"""Share by which the end of a step may miss an instant and still be it."""
+
+
+class Happenings(Observer):
+    """Brings about the events of a turning rotor.
+
+    Parameters
+    ----------
+    system : System
+        Watched after each of its steps.
+    events : sequence of Event
+        Of the scenario; those that are no switches happen inside the rotor.
+    static : ndarray (bearings, 4)
+        Journals at the start, from which vibrations count.
+    """
+
+    def __init__(self, system: System, events: Sequence[Event], static: Array) -> None:
+        self._system, self._static = system, static
+        self._switches = [event for event in events if isinstance(event, Switch)]
+        self._happened = np.full(len(self._switches), np.nan)
+        self._since = np.full(len(self._switches), np.nan)
+        """From when on the condition of each has held."""
+        self._last = np.full(len(self._switches), -math.inf)
+        """When it was last seen to hold."""
+
+    @property
+    def happened(self) -> list[Event]:
+        """The events that their conditions have brought about, with their instants."""
+        found = zip(self._switches, self._happened.tolist(), strict=True)
+        return [_at(event, time) for event, time in found if not math.isnan(time) and not event.timed]
+
+    def begin(self, stepper: Stepper) -> None:
+        """Take the start of the run."""
+        self._look(0.0)
+
+    def watch(self, start: float, end: float, advance: Advance) -> None:
+        """Look at the conditions after a step."""
+        self._look(end)
+
+    def _look(self, time: float) -> None:
+        for index, event in enumerate(self._switches):
+            if math.isnan(self._happened[index]) and self._due(index, event, time):
+                self._happened[index] = time
+                self._system.switch(event.input)
+
+    def _due(self, index: int, event: Switch, time: float) -> bool:
+        if event.timed:
+            return time >= event.time * (1.0 - _INSTANT)
+        if self._holds(event):
+            self._last[index] = time
+            if math.isnan(self._since[index]):
+                self._since[index] = time
+        turn = 2.0 * math.pi / max(abs(self._system.speed), 1e-3) if event.vibration is not None else 0.0
+        if time - self._last[index] > turn:
+            self._since[index] = math.nan
+        return time - self._since[index] >= event.lasting
+
+    def _holds(self, event: Switch) -> bool:
+        system = self._system
+        if event.vibration is not None:
+            off = system.motion[:, :2] - self._static[:, :2]
+            return bool(np.hypot(off[:, 0], off[:, 1]).max() > event.vibration)
+        if event.least_gap is not None:
+            return bool(system.responses[:, RESPONSE["h_min"]].min() < event.least_gap)
+        assert event.speed is not None
+        return abs(system.speed) < event.speed
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """All that it holds, by name."""
+        return {"happened": self._happened, "since": self._since, "last": self._last}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what `arrays` returned."""
+        self._happened[:], self._since[:], self._last[:] = (
+            arrays[name] for name in ("happened", "since", "last")
+        )
+
+
+def _at(event: Switch, time: float) -> Event:
+    """The event as it happened."""
+    return type(event).model_validate({"kind": event.kind, "time": time})

@@ -1,0 +1,100 @@
+"""A fan that loses a piece, is tripped by its vibration and slows down, through the FMUs."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fmus import port
+from orchestrator.case.simulate import simulate
+from orchestrator.fmi.folder import build
+from orchestrator.observers.happenings import Happenings
+from orchestrator.scenario.events import Trip, VacuumBreak
+from orchestrator.scenario.file import load_scenario
+from orchestrator.scenario.schedule import from_attributes
+from rotor_fmu.train.file import load_train
+
+FAN = Path(__file__).parents[2] / "examples" / "fan"
+
+
+class Machine:
+    """A system of one bearing, as far as conditions look at it."""
+
+    def __init__(self):
+        self.motion, self.responses, self.speed = np.zeros((1, 8)), np.ones((1, 52)), 100.0
+        self.switched = []
+
+    def switch(self, name):
+        self.switched.append(name)
+
+
+def watched(machine, *events):
+    happenings = Happenings(machine, events, np.zeros((1, 4)))
+    happenings.begin(None)
+    return happenings
+
+
+def test_an_instant_is_met():
+    machine = Machine()
+    happenings = watched(machine, Trip(time=0.5), VacuumBreak(time=0.0))
+    assert machine.switched == [port.VACUUM_BROKEN]
+    happenings.watch(0.4, 0.5, None)
+    assert machine.switched == [port.VACUUM_BROKEN, port.RELEASED]
+    assert happenings.happened == []  # known beforehand
+
+
+def test_a_vibration_must_last():
+    """A turn takes 0.063 s: an orbit that dips below the limit in between still counts, a rest does not."""
+    machine = Machine()
+    happenings = watched(machine, Trip(vibration=1e-5, lasting=0.2))
+    for k in range(1, 100):
+        time = 0.01 * k
+        resting = 0.15 < time < 0.3
+        machine.motion[0, 0] = 0.0 if resting or k % 3 else 2e-5
+        happenings.watch(time - 0.01, time, None)
+    (trip,) = happenings.happened
+    assert trip.time == pytest.approx(0.5, abs=0.011)  # 0.3 s is the first time behind the rest
+    again = watched(machine, Trip(vibration=1e-5, lasting=0.2))
+    again.restore({name: values.copy() for name, values in happenings.arrays().items()})
+    assert again.happened == happenings.happened
+
+
+def test_gap_and_speed():
+    machine = Machine()
+    happenings = watched(machine, Trip(least_gap=1e-5), VacuumBreak(speed=50.0))
+    happenings.watch(0.0, 0.1, None)
+    assert machine.switched == []
+    machine.responses[:] = 5e-6
+    machine.speed = 40.0
+    happenings.watch(0.1, 0.2, None)
+    assert machine.switched == [port.RELEASED, port.VACUUM_BROKEN]
+
+
+@pytest.fixture(scope="module")
+def fan(once):
+    return once("fan", lambda folder: build(folder, [load_train(FAN)], ["v3"]))
+
+
+def test_a_coast_down_obeys_its_torques(fan):
+    """What the rotation loses is what friction and windage took; housings move, the record knows it all."""
+    changes = {"end": 0.16, "events": [
+        {"wheel": "wheel", "unbalance": 0.05, "time": 0.02},
+        {"kind": "trip", "vibration": 2e-5, "lasting": 0.01},
+        {"kind": "vacuum-break", "time": 0.13},
+    ], "rotation": {"windage_broken": 0.5}, "record": {"interval": 2e-4}}  # fmt: skip
+    record = simulate(load_scenario(FAN / "coast-down.toml", changes), fan).record
+    assert record.attrs["status"] == "finished"
+    schedule = from_attributes(record.attrs)
+    loss, trip, broken = schedule.events
+    assert (loss.kind, trip.kind, broken.kind) == ("blade-loss", "trip", "vacuum-break")
+    time, speed = record["time"].values, record["rotation_speed"].values
+    assert np.ptp(speed[time <= trip.time]) == 0.0
+    power = record["friction_power"].sum("bearing").values
+    power = power + np.where(time > 0.13, 0.5, 0.045) * speed**3
+    for start, end in ((trip.time + 1e-3, 0.129), (0.131, 0.16)):
+        inside = (time >= start) & (time <= end)
+        lost = 0.5 * 34.0 * (speed[inside][0] ** 2 - speed[inside][-1] ** 2)
+        assert lost == pytest.approx(np.trapezoid(power[inside], time[inside]), rel=5e-3)
+    assert np.abs(record["housing_displacement"]).max() > 1e-6
+    held = record["foundation_force"].isel(time=0).values + record["static_force"].values
+    assert np.abs(held).max() < 0.5 * np.abs(record["static_force"]).max()

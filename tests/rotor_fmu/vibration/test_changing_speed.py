@@ -1,0 +1,190 @@
+"""Run-up, run-down and released rotors against independent integrations and closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+import scipy.linalg as sl
+from scipy.integrate import solve_ivp
+
+from rotor_fmu.vibration.detuning import block_detuning, dense_detuning
+from rotor_fmu.vibration.drive import Drive, course_of
+from rotor_fmu.vibration.unbalance import Loss, losses_of
+from tests.rotor_fmu.small_shafts import (
+    gyroscopic,
+    linear_bearings,
+    matrix_rotor,
+    small_rotor,
+    unbalance,
+    unreduced,
+)
+
+OMEGA = 100.0
+
+
+def jeffcott(zeta, speed):
+    """A unit mass on an isotropic spring, its law, and a rotor at a speed with unit eccentricity."""
+    nothing = np.zeros((4, 4))
+    model, reduced = unreduced(np.eye(4), nothing, nothing, nothing, bearings=(0,), wheels=(0,))
+    rotor = matrix_rotor(model, reduced, unbalance([1.0], [0.0]), gravity=0.0, speed=speed)
+    return rotor, (np.zeros((1, 4)), OMEGA**2 * np.eye(4)[None], 2.0 * zeta * OMEGA * np.eye(4)[None])
+
+
+def largest(zeta, rate, start, end):
+    """Largest amplitude, and the speed ratio there, at constant acceleration between two speed ratios."""
+    rotor, law = jeffcott(zeta, start * OMEGA)
+    if start:
+        rotor.start_from_law(*law, orbit=True)
+    else:
+        rotor.start_from_positions(*np.zeros((3, 1, 4)))
+    step = 2.0 * math.pi / OMEGA / 40
+    total = abs(end - start) / rate / OMEGA
+    found = (0.0, 0.0)
+    for k in range(int(total / step)):
+        ratio = start + (end - start) * (k + 1) * step / total
+        rotor.step(k * step, step, *law, ratio * OMEGA)
+        found = max(found, (math.hypot(*rotor.kinematics()[0, :2]), ratio))
+    return found
+
+
+# Integrated to 1e-10: z'' + 2 zeta z' + z = e^{i phi} (phi'^2 - i phi''), up from rest to 3, or down
+# from the steady state at 3; zeta, lambda = alpha / omega^2, then amplitude and speed ratio of both peaks.
+PASSAGES = [(0.02, 0.01, 11.3084, 1.1949, 9.9574, 0.8192)]
+LONG = [
+    (0.0, 0.003, 27.5525, 1.1183, 26.0529, 0.8818),
+    (0.01, 0.001, 29.1581, 1.0568, 27.9271, 0.9451),
+    (0.05, 0.003, 9.2157, 1.0790, 8.5165, 0.9356),
+]
+
+
+@pytest.mark.parametrize("case", [*PASSAGES, *(pytest.param(case, marks=pytest.mark.slow) for case in LONG)])
+def test_passage_through_the_critical_speed(case):
+    zeta, rate, up, at_up, down, at_down = case
+    assert largest(zeta, rate, 0.0, 1.4) == pytest.approx((up, at_up), rel=5e-3)
+    assert largest(zeta, rate, 3.0, 0.6) == pytest.approx((down, at_down), rel=5e-3)
+
+
+@pytest.mark.parametrize(("ratio", "steady", "peak"), [(0.5, 0.3326, 0.5754), (2.0, 1.3304, 3.2366)])
+def test_sudden_unbalance(ratio, steady, peak):
+    """Damping ratio 0.05; amplitudes over the eccentricity."""
+    nothing = np.zeros((4, 4))
+    model, reduced = unreduced(np.eye(4), nothing, nothing, nothing, bearings=(0,), wheels=(0,))
+    excitation = unbalance([0.0], [0.0], [1.0], [0.0], fracture_time=0.0)
+    rotor = matrix_rotor(model, reduced, excitation, gravity=0.0, speed=ratio * OMEGA)
+    law = np.zeros((1, 4)), OMEGA**2 * np.eye(4)[None], 0.1 * OMEGA * np.eye(4)[None]
+    rotor.start_from_positions(*np.zeros((3, 1, 4)))
+    step = 2.0 * math.pi / OMEGA / 100
+    sizes = []
+    for k in range(3000):
+        rotor.step(k * step, step, *law, ratio * OMEGA)
+        sizes.append(math.hypot(*rotor.kinematics()[0, :2]))
+    assert max(sizes) == pytest.approx(peak, rel=2e-3)
+    assert sizes[-1] == pytest.approx(steady, rel=2e-3)
+
+
+def test_gyroscopic_moments_of_a_changing_speed_and_their_energy():
+    """A shaft that whirls in both planes, from 5 to 40 rad/s, against Runge and Kutta; the ledger closes."""
+    start, end, total, step = 5.0, 40.0, 0.5, 1e-3
+    model, reduced = unreduced(*gyroscopic(), bearings=(0, 2), wheels=(0, 1))
+    excitation = unbalance([0.02, 0.01], [0.3, -1.0])
+    rotor = matrix_rotor(model, reduced, excitation, gravity=0.0, speed=start, track_work=True)
+    _, K, C = linear_bearings()
+    law = np.zeros((2, 4)), K, C
+    rotor.start_from_law(*law, orbit=True)
+    x0, before = rotor.modal_state().copy(), sum(rotor.energy())
+    rate = (end - start) / total
+    for k in range(round(total / step)):
+        rotor.step(k * step, step, *law, start + rate * (k + 1) * step)
+    shaft, m = rotor.shaft, rotor.shaft.size
+    springs, dampers = (shaft.bearing.T @ sl.block_diag(*A) @ shaft.bearing for A in (K, C))
+    pull = excitation.nominal_force(shaft, 1.0)
+
+    def motion(t, x):
+        speed, angle = start + rate * t, start * t + 0.5 * rate * t * t
+        turned = complex(speed**2, -rate) * complex(math.cos(angle), math.sin(angle))
+        p, v = x[:m], x[m:]
+        force = pull @ [turned.real, turned.imag] - (shaft.D + speed * shaft.G + dampers) @ v
+        return np.concatenate([v, force - (rate * shaft.G + springs) @ p - shaft.omega**2 * p])
+
+    exact = solve_ivp(motion, (0.0, total), x0, method="DOP853", rtol=1e-9, atol=1e-12).y[:m, -1]
+    expected = (shaft.bearing @ exact).reshape(-1, 4)
+    found = rotor.kinematics()[:, :4]
+    np.testing.assert_allclose(found, expected, atol=1e-3 * np.abs(expected).max())
+    work = rotor.work()
+    gained = sum(rotor.energy()) - before
+    assert gained == pytest.approx(work.bearings + work.unbalance - work.damping, abs=1e-3 * work.unbalance)
+
+
+def test_derivatives_by_blocks_are_those_of_the_whole_matrix():
+    rng = np.random.default_rng(4)
+    block = 1e-3 * (rng.normal(size=(3, 3)) + 1j * rng.normal(size=(3, 3)))
+    rates = np.array([-0.1 + 50j, -0.1 - 50j, -900.0, -0.1 + 50.001j, 3e4j])
+    E = rng.normal(size=(2, 8, 8)) + 1j * rng.normal(size=(2, 8, 8))
+    whole = dense_detuning(sl.block_diag(block, np.diag(rates)), (E[0], E[1]), 1e-3)
+    found = block_detuning(block, rates, (E[0], E[1]), 1e-3)
+    np.testing.assert_allclose(found.derivatives, whole.derivatives, rtol=1e-9, atol=1e-15)
+
+
+def test_a_constant_speed_takes_no_part_in_it():
+    """Steps at one speed are those that they were, bit by bit, also behind a change."""
+    one, other = small_rotor(speed=12.0), small_rotor(speed=12.0)
+    F0, K, C = linear_bearings()
+    for rotor in (one, other):
+        rotor.start_from_law(F0, K, C, orbit=True)
+    other.set_state(other.get_state().from_bytes(other.get_state().to_bytes()))
+    for k in range(20):
+        one.step(k * 1e-2, 1e-2, F0, 1.1 * K, C, 12.0)
+        other.step(k * 1e-2, 1e-2, F0, 1.1 * K, C, 12.0)
+    np.testing.assert_array_equal(one.kinematics(), other.kinematics())
+    one.step(0.2, 1e-2, F0, K, C, 13.0)
+    assert one.speed == 13.0
+    assert type(one.get_state()).from_bytes(one.get_state().to_bytes()).turning == 13.0
+
+
+@pytest.mark.parametrize("speeds", [(12.0, 12.0), (12.0, 20.0)])
+def test_what_is_lost_later_is_lost_as_the_first(speeds):
+    """A loss in the list does what it does as the first, and several add up, inside a step, too."""
+    times, amounts, phases = (0.103, 0.2), ([0.05, 0.0], [0.0, 0.03]), ([0.2, 0.0], [0.0, -0.4])
+    F0, K, C = linear_bearings()
+
+    def ran(first, later):
+        blade = unbalance([0.0, 0.0], [0.0, 0.0], amounts[first], phases[first], times[first])
+        rest = tuple(Loss(times[k], np.array(amounts[k]), np.array(phases[k])) for k in later)
+        rotor = small_rotor(speed=speeds[0], excitation=type(blade)(**{**vars(blade), "later": rest}))
+        rotor.start_from_law(0.0 * F0, K, C, orbit=True)
+        for k in range(40):
+            end = speeds[0] + (speeds[1] - speeds[0]) * (k + 1) / 40
+            rotor.step(k * 1e-2, 1e-2, 0.0 * F0, K, C, end)
+        return rotor.kinematics()
+
+    both = ran(0, (1,))
+    np.testing.assert_allclose(ran(1, (0,)), both, rtol=1e-9, atol=1e-14)
+    np.testing.assert_allclose(ran(0, ()) + ran(1, ()), both, rtol=1e-9, atol=1e-14)
+
+
+def test_losses_and_courses_as_texts():
+    (loss,) = losses_of("[[2.0, 2, 0.5, -0.1]]", 3)
+    assert (loss.time, loss.amount.tolist(), loss.phase.tolist()) == (2.0, [0, 0.5, 0], [0, -0.1, 0])
+    for text in ("[[1, 4, 0.5, 0]]", "[[1, 0, 0.5, 0]]", "[[1, 1]]", "nothing"):
+        with pytest.raises(ValueError, match="a wheel from 1 to 3"):
+            losses_of(text, 3)
+    assert course_of("") == ()
+    assert Drive(course_of("[[0, 10], [2, 30]]")).on_course(0.5) == 15.0
+    for text in ("[[1, 2], [1, 3]]", "[]", "[[0, NaN]]", "fast"):
+        with pytest.raises(ValueError, match="instant in s, ascending"):
+            course_of(text)
+
+
+def test_a_released_rotor_slows_down():
+    """By windage alone as W0 / (1 + c W0 t / I), by constant friction power as the root of what is left."""
+    speed, friction, inertia, windage, step = 300.0, 2e4, 50.0, 0.2, 1e-3
+    airy, dry = Drive(inertia=inertia, windage=0.0, windage_broken=windage), Drive(inertia=inertia)
+    one = other = speed
+    for _ in range(5000):
+        one = airy.let_go(one, step, 0.0, broken=True)
+        other = dry.let_go(other, step, friction, broken=True)
+    assert one == pytest.approx(speed / (1.0 + windage * speed * 5.0 / inertia), rel=1e-3)
+    assert other == pytest.approx(math.sqrt(speed**2 - 2.0 * friction * 5.0 / inertia), rel=1e-12)
+    assert dry.let_go(1.0, 1.0, friction, broken=False) == 0.0
+    with pytest.raises(ValueError, match="allowed for a released rotor"):
+        Drive().let_go(1.0, 1.0, 0.0, broken=False)
