@@ -52,11 +52,6 @@ class FoundationMode:
     damping_ratio: float
     shape: tuple[float, ...]
 
-    @property
-    def has_grooves(self) -> bool:
-        """Whether its bore has grooves, from which oil comes."""
-        return self.bore != PLAIN
-
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> FoundationMode:
         """A mode of what `dataclasses.asdict` makes of one, through JSON."""
@@ -151,6 +146,11 @@ class BearingSeat:
         if given is not None:
             given = Pedestal(**{key: pair and tuple(pair) for key, pair in given.items()})
         return cls(**data, pedestal=given)
+
+    @property
+    def has_grooves(self) -> bool:
+        """Whether its bore has grooves, from which oil comes."""
+        return self.bore != PLAIN
 
     @property
     def oil(self) -> port.Oil | None:
