@@ -40,6 +40,8 @@ def test_the_command_line_lists_it(tmp_path):
 
 
 def test_scenarios_take_it_and_name_it_among_the_allowed(tmp_path):
+    from bearing_fmu import depths
+
     said = in_a_process(
         """
 from orchestrator.errors import ScenarioError
@@ -53,7 +55,7 @@ except ScenarioError as error:
         folder=tmp_path,
     )
     assert said.startswith("spring\n")
-    assert "did you mean 'spring'? allowed are v1, v2, v3, linear, spring" in said
+    assert f"did you mean 'spring'? allowed are {', '.join(depths.names())}, spring" in said
 
 
 def test_figures_give_it_a_colour_and_its_title(tmp_path):

@@ -26,6 +26,9 @@ def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
         "sommerfeld",
         "contact.friction",
         "layer.poisson",
+        "feed_content",
+        "wiped",
+        "contact_area",
         port.RELEASED,
         port.VACUUM_BROKEN,
     }

@@ -7,7 +7,7 @@ import pytest
 
 from fmus import port
 from fmus.build.description import STEP_SIZE
-from fmus.build.promises import AFFINE, ISOTROPIC, MEMORYLESS, promises_of
+from fmus.build.promises import AFFINE, ISOTROPIC, MEMORYLESS, memoryless_with, promises_of
 
 
 def variables_of(host):
@@ -40,7 +40,12 @@ def test_films_say_that_they_have_no_memory_and_rotors_do_not(built):
     for name, path in built.items():
         with ZipFile(path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-        promised = {"bearing_linear.fmu": {AFFINE, MEMORYLESS}, "rotor_small.fmu": set(), "rotor.fmu": set()}
+        promised = {
+            "bearing_linear.fmu": {AFFINE, MEMORYLESS},
+            "bearing_v1.fmu": {ISOTROPIC, memoryless_with("guembel"), memoryless_with("reynolds")},
+            "rotor_small.fmu": set(),
+            "rotor.fmu": set(),
+        }
         assert promises_of(root) == promised.get(name, {ISOTROPIC, MEMORYLESS}), name
 
 

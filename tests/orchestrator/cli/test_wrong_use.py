@@ -3,6 +3,7 @@
 import pytest
 from typer.testing import CliRunner
 
+from bearing_fmu import depths
 from orchestrator.cli.main import app
 from orchestrator.outcome import INPUT_ERROR
 from tests.faults import fault
@@ -15,7 +16,7 @@ def case(arguments, words, name, outcome, *, guard):
 
 CASES = [
     case(
-        "run --depth v4", "--depth v4: allowed are v1, v2, v3",
+        "run --depth v4", f"--depth v4: allowed are {', '.join(depths.names())}",
         "--depth v4", "exit 2; one line: option, value, all depths",
         guard="orchestrator.cli.wrong_use:one_of",
     ),
@@ -31,7 +32,7 @@ CASES = [
         guard="orchestrator.cli.run:RunOptions",
     ),
     case(
-        "campbell --depth V2", "--depth V2: did you mean 'v2'? allowed are v1, v2, v3",
+        "campbell --depth V2", f"--depth V2: did you mean 'v2'? allowed are {', '.join(depths.films())}",
         "--depth V2 of a linear analysis", "exit 2; one line: option, value, the likely spelling",
         guard="orchestrator.cli.linear:FilmDepth",
     ),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from bearing_fmu import depths
 from orchestrator.errors import ScenarioError
 from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
@@ -47,5 +48,7 @@ def test_one_bearing_may_be_linear_among_films(started, store):
 
 
 def test_its_source_is_a_film():
-    with pytest.raises(ScenarioError, match="linear_from = 'linear'; allowed are v1, v2, v3"):
+    with pytest.raises(
+        ScenarioError, match=f"linear_from = 'linear'; allowed are {', '.join(depths.films())}"
+    ):
         load_scenario("small", {"linear_from": "linear"})

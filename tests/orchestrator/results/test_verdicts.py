@@ -159,7 +159,7 @@ def test_the_bundled_train_has_a_limit_of_its_own():
         ("[log_decrement]\nleats = 0.1", "log_decrement.leats: unknown; did you mean 'least'?"),
         ("[shaft_vibration]\nzone_ab = [1e-4]", "shaft_vibration: allowed are ascending speeds"),
         ("[least_film]\ndiameter = [1.0]", "least_film: allowed are a row for each diameter"),
-        ("stress = ", "no TOML: "),
+        ("stress = ", "not TOML: "),
     ],
 )
 def test_wrong_limits_are_refused_in_a_line(tmp_path, text, line):

@@ -6,6 +6,7 @@ from typing import ClassVar, Literal
 
 import pytest
 
+from bearing_fmu import depths
 from orchestrator.errors import ScenarioError
 from orchestrator.scenario.events import KINDS, Event
 from orchestrator.scenario.file import (
@@ -89,10 +90,10 @@ def test_every_problem_is_reported_at_once(scenario_file):
     expected = [
         "line 3: end = -1.0; allowed is a number of at least 1e-09 s",
         "line 4: stepp: unknown key; did you mean 'step'? allowed are title, train, reduction",
-        "line 5: depth = 'v4'; allowed are v1, v2, v3",
+        f"line 5: depth = 'v4'; allowed are {', '.join(depths.names())}",
         "line 6: reduction = 'irz'; did you mean 'irs'? allowed are irs, irs-plain, guyan",
         "line 7: coupling = 'linear implicit'; did you mean 'linear-implicit'? allowed are lin",
-        "line 10: depth_at.rear = 'V3'; did you mean 'v3'? allowed are v1, v2, v3",
+        f"line 10: depth_at.rear = 'V3'; did you mean 'v3'? allowed are {', '.join(depths.names())}",
         "line 12: unbalance.at.wheel-7.unbalance = -0.1; allowed is a number of at least 0",
         "line 15: event.unbalance = 'much'; allowed is a number",
         "line 13: event.time: missing; it must be given",
