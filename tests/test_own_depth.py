@@ -32,8 +32,10 @@ MAIN = "from orchestrator.cli.main import main; main()"
 
 
 def test_the_command_line_lists_it(tmp_path):
+    from bearing_fmu import depths
+
     for command in ("run", "modes"):
-        assert "v1|v2|v3|linear|spring" in in_a_process(MAIN, command, "--help", folder=tmp_path)
+        assert "|".join((*depths.names(), "spring")) in in_a_process(MAIN, command, "--help", folder=tmp_path)
     assert "spring spring and damper" in " ".join(
         in_a_process(MAIN, "run", "--help", folder=tmp_path).replace("│", " ").split()
     )

@@ -85,7 +85,7 @@ def _film(one: xr.Dataset, index: int, columns: int, rows: int) -> FilmMap | Non
     now = one.isel(time=index)
     q = np.concatenate([now["displacement"] - now["offset"], now["tilt"] - now["offset_tilt"]])
     v = np.concatenate([now["velocity"], now["tilt_rate"]])
-    speed = float(now["rotor_speed"])
+    speed = float(now["rotation_speed" if "rotation_speed" in now else "rotor_speed"])
     try:
         return film_map(str(one["depth"].values), values, q, v, speed, columns=columns, rows=rows)
     except (ArithmeticError, KeyError, ValueError):  # of another version, or beyond what a film answers

@@ -113,9 +113,9 @@ def test_sources_follow_imports():
         "__init__.py",
         *(
             f"port/{name}.py"
-            for name in ("__init__", "balance", "bearing", "bore", "connector", "failure", "linear_bearing")
+            for name in ("__init__", "balance", "bearing", "bore", "connector", "drive", "failure")
         ),
-        *(f"port/{name}.py" for name in ("rotor_variables", "start", "variable")),
+        *(f"port/{name}.py" for name in ("linear_bearing", "oil", "rotor_variables", "start", "variable")),
         *(f"unit/{name}.py" for name in ("__init__", "failure", "hooks", "layout", "slave")),
         *(f"unit/{name}.py" for name in ("state", "values")),
     }

@@ -86,4 +86,4 @@ def test_the_master_marks_units_that_remember_only(built, tmp_path, boundary, fo
     unit.set_parameters({"film.boundary": boundary})
     assert forgets(unit) is forgotten
     unit.close()
-    file.close()
+    file.end_library()

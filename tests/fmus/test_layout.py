@@ -10,8 +10,8 @@ from fmus.unit.layout import Layout
 
 def test_blocks_of_the_bearing():
     layout = Layout(port.BEARING)
-    assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 69))
-    assert layout.parameters == slice(69, len(port.BEARING) - 1)
+    assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 75))
+    assert layout.parameters == slice(75, len(port.BEARING) - 1)
     assert layout[port.FAILURE.name] == len(port.BEARING) - 1
     assert layout.block("journal.x", "journal.tilt_rate_y") == slice(0, 8)
 

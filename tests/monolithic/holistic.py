@@ -159,7 +159,7 @@ def holistic_model(scenario: Scenario, train: Train, start: Start) -> Holistic:
         static=state.static,
         speed=train.speed,
         nominal=excitation.nominal_force(shaft.modal, train.speed),
-        blade=excitation.blade_force(shaft.modal, train.speed),
+        blade=excitation.forces(shaft.modal, train.speed)[:, 2:4],
         fracture_time=excitation.fracture_time,
         films=tuple(
             make_film(scenario.depth_of(seat.name), film_parameters(seat, scenario))

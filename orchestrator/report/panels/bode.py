@@ -45,8 +45,8 @@ def bode(results: Sequence[Result]) -> Iterator[Panel]:
 
 def speed_over_time(result: Result) -> NDArray[np.float64] | None:
     """Speed at each instant in rad/s, None where it stays."""
-    if "time" not in result.record.get("rotor_speed", result.record["time"].isel(time=0)).dims:
+    if "rotation_speed" not in result.record:
         return None
-    speed = np.abs(np.asarray(result.record["rotor_speed"].values, dtype=float))
+    speed = np.abs(np.asarray(result.record["rotation_speed"].values, dtype=float))
     changed = float(speed.max() - speed.min()) > LEAST_CHANGE * float(speed.max())
     return speed if changed else None

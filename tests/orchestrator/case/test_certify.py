@@ -107,7 +107,7 @@ def test_a_run_that_half_the_step_contradicts_is_no_success(fmus, tmp_path, monk
             result = replace(result, record=harder)
         return result
 
-    monkeypatch.setattr("orchestrator.commands.run.execute", harder_at_half)
+    monkeypatch.setattr("orchestrator.case.carry_out.execute", harder_at_half)
     said = StringIO()
     request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)
     with folder_case(toy_scenario(tmp_path, event=BLADE), train_of(toy_scenario(tmp_path)), fmus) as case:
@@ -145,7 +145,7 @@ def test_a_failed_certificate_is_no_success(fmus, tmp_path, monkeypatch):
         failed = {"outcome": Outcome.TOLERANCE_MISSED, "message": "at t = 0.02 s: too far"}
         return replace(result, **failed) if case.scenario.step < 1e-3 else result
 
-    monkeypatch.setattr("orchestrator.commands.run.execute", failing_at_half)
+    monkeypatch.setattr("orchestrator.case.carry_out.execute", failing_at_half)
     scenario = toy_scenario(tmp_path, event=BLADE, end=0.05)
     said = StringIO()
     request = RunRequest("toy", out=tmp_path / "out", fmus=fmus, formats=(), certify=True)

@@ -17,7 +17,6 @@ from orchestrator.case import prepare
 from orchestrator.case.request import RunRequest
 from orchestrator.cli import options as cli
 from orchestrator.cli.main import app
-from orchestrator.commands import run as run_command
 from orchestrator.outcome import INPUT_ERROR, Outcome
 from orchestrator.results.figures.write import FORMATS
 from orchestrator.results.manifest import MANIFEST
@@ -273,7 +272,7 @@ def failing(outcome, end):
 
 
 def test_a_partial_run_is_marked_and_replaces_nothing(here, monkeypatch):
-    monkeypatch.setattr(run_command, "execute", failing(Outcome.STEP_REFUSED, 1.1))
+    monkeypatch.setattr("orchestrator.case.carry_out.execute", failing(Outcome.STEP_REFUSED, 1.1))
     monkeypatch.setattr(prepare, "ensure_fmus", lambda *_: [])
     result = call("run", "--out", "out")
     assert result.exit_code == Outcome.STEP_REFUSED.status
@@ -294,7 +293,7 @@ def test_a_run_that_never_began_leaves_nothing(here, monkeypatch):
             xr.Dataset(), Outcome.NO_EQUILIBRIUM, "front: residual", Timing(0, 0, 0, 0, 0, 0, 0), 0, 0
         )
 
-    monkeypatch.setattr(run_command, "execute", execute)
+    monkeypatch.setattr("orchestrator.case.carry_out.execute", execute)
     monkeypatch.setattr(prepare, "ensure_fmus", lambda *_: [])
     result = call("run", "small")
     assert result.exit_code == Outcome.NO_EQUILIBRIUM.status

@@ -111,7 +111,7 @@ def test_a_bode_plot_appears_where_the_speed_changes(records):
     theta = 100.0 * time + 30.0 * time**2
     wave = 1e-6 * speed[:, None] * np.column_stack([np.cos(theta - 0.5), np.sin(theta - 0.5)])
     record["displacement"] = (("time", "bearing", "axis"), wave[:, None])
-    (result,) = results_of([record.assign(rotor_speed=("time", speed))])
+    (result,) = results_of([record.assign(rotation_speed=("time", speed))])
     (panel,) = bode([result])
     amplitude, phase = (unpacked(trace["y"]) for trace in panel.traces)
     minute = unpacked(panel.traces[0]["x"])
