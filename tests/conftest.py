@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits  # noqa: E402
 from bearing_fmu import depths  # noqa: E402
 from orchestrator.fmi.folder import build  # noqa: E402
 from rotor_fmu.train.file import load_train  # noqa: E402
-from tests.bearing_fmu.cold_kernels import VARIANTS  # noqa: E402
+from tests.bearing_fmu.cold_kernels import SLOW_VARIANTS, VARIANTS  # noqa: E402
 
 threadpool_limits(1)  # where a plugin of pytest has loaded numpy before
 
@@ -40,8 +40,11 @@ def pytest_configure(config):
             "tests.bearing_fmu.cold_kernels",
             str(config.cache.mkdir("cold-kernels")),
         ]
-        first = ["v1", "v1-jfo", "v1-jfo-lemon"]
-        others = [name for name in (*depths.films(), *VARIANTS) if name not in first]
+        chosen = config.getoption("markexpr")
+        names = [*depths.films(), *VARIANTS] if chosen != "slow" else []
+        names += SLOW_VARIANTS if chosen != "not slow" else []
+        first = [name for name in names if name in ("v1", "v1-jfo", "v1-jfo-lemon", "v1-lemon")]
+        others = [name for name in names if name not in first]
         uncounted = {name: value for name, value in os.environ.items() if name != _COUNTED}
         started = [
             subprocess.Popen([*command, *part], cwd=Path(__file__).parents[1], env=uncounted)

@@ -84,7 +84,7 @@ def collect(root: Path = ROOT) -> list[Fault]:
         If pytest cannot collect the tests.
     """
     collector = _Collector()
-    arguments = ["--collect-only", "-qq", "--no-header", f"--rootdir={root}", str(root / "tests")]
+    arguments = ["--collect-only", "-m", "", "-qq", "--no-header", f"--rootdir={root}", str(root / "tests")]
     stdout = os.dup(1)
     try:  # pytest lists every test
         with Path(os.devnull).open("w") as nothing:

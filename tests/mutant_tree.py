@@ -208,7 +208,8 @@ def _run_tests(tests: Sequence[str], stamp: str, stop: bool) -> tuple[Any, ...]:
     if stamp:  # no kernel changed: take those that are there
         importlib.import_module("bearing_fmu.kernels.compiled")._SOURCES = stamp  # type: ignore[attr-defined]
     outcomes = Outcomes()
-    pytest.main(["-x", *tests] if stop and len(tests) == 1 else [*tests], plugins=[outcomes])
+    first = ["-x"] if stop and len(tests) == 1 else []
+    pytest.main(["-m", "", *first, *tests], plugins=[outcomes])
     return outcomes.passed, outcomes.failed
 
 
