@@ -24,11 +24,14 @@ BEARING = BearingParameters(0.3, 0.2, 3e-4, 0.03, 0.0, 2e-6, 1e9, 0.1, 48, 8)
 LEMON = {"bore": to_text(lobes(2, 0.5))}
 JFO = {"boundary": "jfo", "ambient_pressure": 1e5}
 VARIANTS = {
-    "v1-jfo-lemon": ("v1", JFO | LEMON),
     "v1-lemon": ("v1", LEMON),
     "v2-lemon": ("v2", LEMON),
 }
-SLOW_VARIANTS = {"v1-jfo": ("v1", JFO), "v1-layer": ("v1", {"layer_thickness": 5e-3})}
+SLOW_VARIANTS = {
+    "v1-jfo": ("v1", JFO),
+    "v1-jfo-lemon": ("v1", JFO | LEMON),
+    "v1-layer": ("v1", {"layer_thickness": 5e-3}),
+}
 """Of which only tests with the mark slow are."""
 
 

@@ -11,6 +11,7 @@ from orchestrator.master.rollback import forgets
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
 INPUTS = [v.name for v in port.BEARING_INPUTS]
 STEP = 1e-4
+pytestmark = pytest.mark.slow  # the kernel compiles for a minute
 BEARING = {
     "film.boundary": "jfo",
     "bore": "[[0.2, 2.94, 0, 0], [3.34, 6.08, 0, 0]]",

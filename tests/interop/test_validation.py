@@ -4,11 +4,14 @@ import subprocess
 import sys
 from zipfile import ZipFile
 
+import pytest
+
 from bearing_fmu import depths
 from tests.interop.tools import REPOSITORY
 from tests.validate_fmus import findings
 
 
+@pytest.mark.slow  # builds all that is shipped
 def test_the_one_command_finds_nothing():
     command = [sys.executable, "-m", "tests.validate_fmus"]
     done = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)

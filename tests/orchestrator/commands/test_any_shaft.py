@@ -165,6 +165,7 @@ def test_a_run_of_few_shoulders_keeps_them_all(within, method):
         assert used == "none; the shaft has 16 degrees of freedom, 220 may be kept"
 
 
+@pytest.mark.slow
 def test_runs_of_a_fine_mesh_agree_under_all_reductions_and_with_the_coarse_mesh(within):
     within("fine")
     full, _ = forces("s.toml", "none", "full")

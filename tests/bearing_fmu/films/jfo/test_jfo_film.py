@@ -27,8 +27,8 @@ from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import RESULTS
 
 GROOVED = "[[0.2, 2.94, 0, 0], [3.34, 6.08, 0, 0]]"
-# kernels are compiled for either kind of bore, which takes its time
-BORES = [GROOVED, pytest.param("plain", marks=pytest.mark.slow)]
+BORES = [GROOVED, "plain"]
+pytestmark = pytest.mark.slow  # the kernel compiles for a minute, for either kind of bore
 SPEED, STEP_LENGTH = 157.0, 1e-4
 
 
@@ -121,7 +121,6 @@ def test_no_oil_is_lost(bore):
     assert 0.5 < jfo.net.full.mean() < 0.95
 
 
-@pytest.mark.slow
 def test_a_sealed_bearing_keeps_its_oil():
     """Without flow over the ends, to 1e-10 a step; and what is owed stays small."""
     film, most = bearing(bore="plain"), []
