@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.film import Film
 from bearing_fmu.films.tilted.depth import SOLVER
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
 from bearing_fmu.outputs import INPUTS, OUTPUTS
@@ -64,13 +65,23 @@ def pressure_map(
     film = Film(SOLVER, replace(parameters, layer_thickness=0.0))
     space, data = film.take()
     work = data[-2]
-    if fed_at is not None:
-        work.held[:, fed_at] = 2.0
     inputs = np.zeros(INPUTS)
     inputs[:4], inputs[4:8], inputs[16] = q, v, speed
-    status = film._kernel(inputs, film.offset, np.zeros(OUTPUTS), *data)
-    if status:
-        raise film.failure(status, inputs, film.offset)
+    try:
+        if fed_at is not None:
+            work.held[:, fed_at] = 2.0
+        status = film.solver.kernel(inputs, film.offset, np.zeros(OUTPUTS), *data)
+        if status:
+            raise film.failure(status, inputs, film.offset)
+        return _map_of(parameters, work)
+    finally:
+        if fed_at is not None:
+            work.held[:, fed_at] = 0.0  # other films share the work space
+        film.bring_back(space)
+
+
+def _map_of(parameters: BearingParameters, work: TiltedFilm) -> PressureMap:
+    """What an evaluation has left in a work space."""
     m, n = parameters.columns, parameters.rows
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
     pressure = np.zeros((m, n + 2))
@@ -82,7 +93,6 @@ def pressure_map(
     open_ = work.column[OPEN, n : n + 2, :m]
     flow = float((np.maximum(outwards, 0.0) * open_**3 * columns[METRIC]).sum()) * 2.0 * np.pi / m
     flow *= parameters.clearance * parameters.radius**3 / parameters.width
-    film.bring_back(space)
     angle = np.arctan2(columns[SIN], columns[COS])
     around, along = np.argsort(angle), np.argsort(work.nodes)
     z = 0.5 * parameters.width * work.nodes[along]

@@ -83,7 +83,7 @@ class _Solved:
 
     def __call__(self, q: Floats, v: Floats, speed: float) -> Floats:
         self._inputs[:2], self._inputs[4:6], self._inputs[16] = q, v, speed
-        status = self._film._kernel(self._inputs, self._film.offset, self._out, *self._data)
+        status = self._film.solver.kernel(self._inputs, self._film.offset, self._out, *self._data)
         if status:
             raise self._film.failure(status, self._inputs, self._film.offset)
         return self._result
