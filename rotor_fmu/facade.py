@@ -15,7 +15,7 @@ from fmus.unit.layout import Layout
 from fmus.unit.slave import UnitSlave
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
-from rotor_fmu.vibration.drive import Drive, course_of
+from rotor_fmu.vibration.drive import Braking, Drive, course_of, torque_of
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 
@@ -74,8 +74,11 @@ class RotorSlave(UnitSlave):
             self.values[self.layout[f"wheel[{j}].z"]] = train.z[wheel.node]
         self.values[self.layout.block("node[1].z", f"node[{train.nodes}].z")] = train.z
         self._drive = Drive(
-            course_of(self.strings[self.layout[port.COURSE]]),
-            *(self._value(f"drive.{name}") for name in ("inertia", "windage", "windage_broken")),
+            course=course_of(self.strings[self.layout[port.COURSE]]),
+            inertia=self._value("drive.inertia"),
+            windage=self._value("drive.windage"),
+            windage_broken=self._value("drive.windage_broken"),
+            torque=torque_of(self.strings[self.layout[port.TORQUE]]),
         )
         self._build()
 
@@ -87,6 +90,7 @@ class RotorSlave(UnitSlave):
             "speed": self._start_speed(),
             "fracture_time": self._value("fracture.time"),
             "losses": self.strings[self.layout[port.LOSSES]],
+            "inertia": self._value("drive.inertia"),
             "track_work": bool(self._value("track_work")),
         }
         for key in ("unbalance", "unbalance_phase", "blade_unbalance", "blade_phase"):
@@ -114,13 +118,12 @@ class RotorSlave(UnitSlave):
         drive = self._drive
         return drive.on_course(self.start_time) if drive.course else float(self.inputs[0])
 
-    def _end_speed(self, time: float, step: float) -> float:
-        """Speed at the end of a step [rad/s]."""
-        released, broken = self._states_of_drive >= 0.5
-        if released:
-            friction = float(self._friction.sum())
-            return self._drive.let_go(self._rotor.speed, step, friction, broken=bool(broken))
-        return self._drive.on_course(time + step) if self._drive.course else float(self.inputs[0])
+    def _braking(self) -> tuple[bool, Braking]:
+        """Whether torques decide the speed, and what acts on the rotation now."""
+        released, broken = map(bool, self._states_of_drive >= 0.5)
+        friction = float(self._friction.sum())
+        now = self._drive.braking(self._rotor.speed, friction, released=released, broken=broken)
+        return self._drive.is_free(released), now
 
     def _show(self) -> None:
         """Write the motion of journals and housings, and the speed."""
@@ -142,7 +145,13 @@ class RotorSlave(UnitSlave):
 
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
-        self._rotor.step(time, step, *self._law, self._end_speed(time, step))
+        free, now = self._braking()
+        if free:
+            self._rotor.freely(time, step, *self._law, now)
+        else:
+            drive = self._drive
+            speed = drive.on_course(time + step) if drive.course else float(self.inputs[0])
+            self._rotor.step(time, step, *self._law, speed, now)
         self._show()
 
     def observe(self, group: str) -> None:
@@ -157,7 +166,10 @@ class RotorSlave(UnitSlave):
             self.values[block] = wrench.ravel()
             return
         if group == "energy":
-            self.values[self.layout.block(port.ENERGY[0], port.ENERGY[-1])] = self._rotor.energy()
+            self.values[self.layout.block(port.ENERGY[0], port.ENERGY[-1])] = (
+                *self._rotor.energy(),
+                self._rotor.energy_of_rotation(),
+            )
             return
         if group == "work":
             work = self._rotor.work() if self._value("track_work") else 0.0

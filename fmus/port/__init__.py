@@ -19,7 +19,7 @@ less the housing's own.  The rotor integrates that law; see the README of this f
 
 from __future__ import annotations
 
-from fmus.port.balance import ENERGY, WORK
+from fmus.port.balance import ENERGY, VIBRATION, WORK
 from fmus.port.bearing import (
     BEARING,
     BEARING_FAILURE,
@@ -47,7 +47,7 @@ from fmus.port.connector import (
     C,
     K,
 )
-from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, RELEASED, ROTATION, VACUUM_BROKEN
+from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, RELEASED, ROTATION, TORQUE, VACUUM_BROKEN
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.linear_bearing import (
     DAMPING,
@@ -94,10 +94,12 @@ __all__ = [
     "STATIC_POSITION",
     "STATIC_WRENCH",
     "STIFFNESS",
+    "TORQUE",
     "UNITS",
     "USUAL_INDEX",
     "VACUUM_BROKEN",
     "VELOCITY",
+    "VIBRATION",
     "WORK",
     "WRENCH",
     "C",

@@ -9,7 +9,7 @@ RELEASED, VACUUM_BROKEN = "drive.released", "drive.vacuum_broken"
 FRICTION_POWER = "friction_power"
 """Of a bearing; of the rotor the input ``bearing[i].friction_power``."""
 ROTATION = "rotation.speed"
-COURSE, LOSSES = "speed.course", "losses"
+COURSE, LOSSES, TORQUE = "speed.course", "losses", "drive.torque"
 
 DRIVE_INPUTS = (
     Variable(RELEASED, "input", "", "from 0.5 on nothing drives the rotor: it slows down by itself", 0.0),
@@ -41,7 +41,15 @@ DRIVE_PARAMETERS = (
         kind="String",
     ),
     Variable(
-        "drive.inertia", "parameter", "kg.m2", "of the train about its axis, for drive.released", 0.0,
+        TORQUE,
+        "parameter",
+        "",
+        "torque of the drive over speed as [[rad/s, N.m], ...], until released; empty: it holds the speed",
+        "",
+        kind="String",
+    ),
+    Variable(
+        "drive.inertia", "parameter", "kg.m2", "of the train about its axis, for a free rotor", 0.0,
         minimum=0.0, nominal=1e4,
     ),
     Variable(

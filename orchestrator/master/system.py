@@ -72,12 +72,15 @@ class System:
         Rotor and bearings, in the order of a sequential coupling.
     rollback : Rollback
         The way back to the start of a step.
+    turning : bool
+        As given.
     """
 
     def __init__(
         self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW, *, turning: bool = False
     ) -> None:
         n = len(bearings)
+        self.turning = turning
         check_port(rotor, bearings, turning=turning)
         self.rotor = rotor
         self.bearings = tuple(bearings)

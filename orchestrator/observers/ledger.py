@@ -16,7 +16,9 @@ besides.  The residue is what the rotor received beyond what the films gave: ene
 coupling created, or lost where it is negative.
 
 Over the whole shaft the energy stored changes by what the bearings and the unbalance do less what
-damping takes; the rotor keeps these accounts exactly.
+damping takes; the rotor keeps these accounts exactly.  The rotation does the work of the unbalance and gets
+that of the drive; friction and windage brake it.  What friction takes the rotor counts by the power that it
+was told at the start of each step, and this ledger besides by the powers at both ends.
 """
 
 from __future__ import annotations
@@ -45,6 +47,30 @@ _CONTACT = slice(RESPONSE["contact.Fx"], RESPONSE["contact.My"] + 1)
 
 
 @dataclass(frozen=True)
+class Rotation:
+    """The energy of the rotation, in J.
+
+    Attributes
+    ----------
+    stored : float
+        Change of its kinetic energy.
+    drive, windage : float
+        Work of the drive, and what windage took.
+    friction : ndarray (bearings,)
+        What friction took at each bearing, by the powers at both ends of each step.
+    """
+
+    stored: float
+    drive: float
+    windage: float
+    friction: Array
+
+    def gap(self, unbalance: float) -> float:
+        """Energy stored less what came and went, with what the unbalance took: 0 where all closes."""
+        return self.stored - self.drive + self.windage + float(self.friction.sum()) + unbalance
+
+
+@dataclass(frozen=True)
 class Balance:
     """The ledger of a run, in J.
 
@@ -56,6 +82,8 @@ class Balance:
         Change of the energy in the shaft: kinetic, strain, gravity.
     bearing_work, unbalance, damping : float
         Works on the shaft by the rotor's exact account; damping is what it lost.
+    rotation : Rotation or None
+        Of a rotor whose speed may change.
     """
 
     bearings: Array
@@ -63,6 +91,7 @@ class Balance:
     bearing_work: float
     unbalance: float
     damping: float
+    rotation: Rotation | None = None
 
     @property
     def residue(self) -> Array:
@@ -124,15 +153,21 @@ class Ledger(Observer):
         self._rotor = np.empty(len(port.ENERGY) + len(port.WORK))
         self._block = Block(system.rotor, (*port.ENERGY, *port.WORK), self._rotor)
         self._first = np.zeros_like(self._rotor)
+        self._friction, self._power = np.zeros(len(system.bearings)), self._friction_power()
 
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
         self._before = self._values()
+        self._power = self._friction_power()
         self._block.get()
         self._first[:] = self._rotor
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Enter an accepted step."""
+        if self._system.turning:
+            power = self._friction_power()
+            self._friction += 0.5 * (end - start) * (self._power + power)
+            self._power = power
         if advance.evaluated is not None:
             self._watch_some(end - start, advance.evaluated, advance.defect)
             return
@@ -165,23 +200,35 @@ class Ledger(Observer):
     def balance(self) -> Balance:
         """Return the ledger up to now."""
         self._block.get()
-        stored, works = np.split(self._rotor - self._first, [len(port.ENERGY)])
-        return Balance(self._works.copy(), float(stored.sum()), *(float(work) for work in works))
+        energies, works = np.split(self._rotor - self._first, [len(port.ENERGY)])
+        of_vibration, given = (part[: port.VIBRATION] for part in (energies, works))
+        rotation = None
+        if self._system.turning:
+            drive, _, windage = works[port.VIBRATION :].tolist()
+            rotation = Rotation(float(energies[port.VIBRATION]), drive, windage, self._friction.copy())
+        bearings, unbalance, damping = given.tolist()
+        stored = float(of_vibration.sum())
+        return Balance(self._works.copy(), stored, bearings, unbalance, damping, rotation)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
         before = {f"before{k}": values for k, values in enumerate(self._before)}
-        return {"works": self._works, "first": self._first, **before}
+        friction = {"friction": self._friction, "power": self._power}
+        return {"works": self._works, "first": self._first, **friction, **before}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
         self._works[:], self._first[:] = arrays["works"], arrays["first"]
+        self._friction[:], self._power = arrays["friction"], arrays["power"]
         self._before = (arrays["before0"], arrays["before1"], arrays["before2"])
 
     def _values(self) -> tuple[Array, Array, Array]:
         """Journals in their housings, wrenches, and their parts from contact."""
         system = self._system
         return system.motion.copy(), system.forces.copy(), system.responses[:, _CONTACT].copy()
+
+    def _friction_power(self) -> Array:
+        return self._system.responses[:, RESPONSE[port.FRICTION_POWER]].copy()
 
     def _law(self, journals: Array) -> Array:
         """Wrenches of the laws that the rotor used last."""

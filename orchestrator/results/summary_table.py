@@ -101,7 +101,18 @@ def _ledger_text(ledger: LedgerSummary) -> str:
         f"stored {ledger.stored:.4g} J = films {film:.4g} (contact {contact:.4g}) + unbalance "
         f"{ledger.unbalance:.4g} - damping {ledger.damping:.4g} + coupling {ledger.gap:.2g} J: "
         f"{100 * ledger.relative_gap:.2g} % of the work exchanged; "
-        f"most at {worst.bearing}, {worst.residue:.2g} J"
+        f"most at {worst.bearing}, {worst.residue:.2g} J{_rotation_text(ledger)}"
+    )
+
+
+def _rotation_text(ledger: LedgerSummary) -> str:
+    """The balance of the rotation; nothing where its speed is one."""
+    of = ledger.rotation
+    if of is None:
+        return ""
+    return (
+        f"; rotation {of.stored:.4g} J = drive {of.drive:.4g} - friction {of.friction:.4g} - windage "
+        f"{of.windage:.4g} - unbalance {ledger.unbalance:.4g} + {of.gap:.2g} J not accounted for"
     )
 
 

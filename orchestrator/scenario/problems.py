@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from bearing_fmu import depths
 from bearing_fmu.depths import LINEAR
-from orchestrator.scenario.events import KINDS, BladeLoss, Event, Switch, Trip
+from orchestrator.scenario.events import KINDS, BladeLoss, Event, Switch
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from rotor_fmu.train.toml_source import Location, Problem
 from rotor_fmu.train.train import Train
@@ -177,14 +177,9 @@ def event_problems(scenario: Scenario) -> Iterator[Problem]:
     for index, event in enumerate(scenario.events):
         if not isinstance(event, Switch):
             continue
-        place = ("events", index, "kind")
         if rotation is None:
+            place = ("events", index, "kind")
             yield place, f"events.{index}.kind = {event.kind!r}; allowed is it beside a table rotation"
-        elif isinstance(event, Trip) and not rotation.inertia > 0.0:
-            yield (
-                place,
-                f"events.{index}.kind = {event.kind!r}; allowed is it beside rotation.inertia above 0",
-            )
 
 
 def depth_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from orchestrator.scenario.fields import Model, NotNegative
+from orchestrator.scenario.fields import Model, NotNegative, Positive
 
 Course = tuple[tuple[float, float], ...]
 """Instants in s, ascending, and speeds there in rad/s; linear in between, constant outside."""
@@ -34,6 +34,21 @@ def _rows(value: Any) -> Any:
     return rows
 
 
+def _torque(value: Any) -> Any:
+    """Rows of a speed and a torque, or one torque at all speeds."""
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        value = [[0.0, value]]
+    try:
+        rows = tuple((float(speed), float(torque)) for speed, torque in value)
+    except (TypeError, ValueError):
+        rows = ()
+    sound = bool(rows) and all(math.isfinite(x) for row in rows for x in row)
+    if not sound or any(b[0] <= a[0] for a, b in pairwise(rows)) or rows[0][0] < 0.0:
+        allowed = "a torque in N m, or rows [rad/s, N m], speeds ascending from 0 on"
+        raise PydanticCustomError("course", "{allowed}", {"allowed": allowed})
+    return rows
+
+
 class Rotation(Model):
     """The speed over time; without this table it is the train's.
 
@@ -42,14 +57,18 @@ class Rotation(Model):
     course : tuple
         Prescribed speed: rows [s, rad/s], linear in between and constant outside; none: the train's speed. An
         event of kind trip ends it.
-    inertia : float
-        Of the whole train about its axis, in kg m2; a trip needs it.
+    torque : tuple
+        Law of the drive until a trip: rows [rad/s, N m], linear in between and constant outside, or one
+        torque; the speed then follows from the torques. None: the drive holds the speed.
+    inertia : float or None
+        Of all that turns about its axis, in kg m2; None: that of the train's shaft, wheels and masses.
     windage, windage_broken : float
         Torque of the windage over the square of the speed, in N m s2, in vacuum and with the vacuum broken.
     """
 
     course: Annotated[Course, BeforeValidator(_rows)] | None = None
-    inertia: NotNegative = 0.0
+    torque: Annotated[Course, BeforeValidator(_torque)] | None = None
+    inertia: Positive | None = None
     windage: NotNegative = 0.0
     windage_broken: NotNegative = Field(0.0)
 
@@ -57,4 +76,10 @@ class Rotation(Model):
     def _breaking_the_vacuum_brakes(self) -> Rotation:
         if 0.0 < self.windage_broken < self.windage:
             raise ValueError("windage_broken is below windage; allowed is more, for the vacuum is broken")
+        return self
+
+    @model_validator(mode="after")
+    def _is_driven_one_way(self) -> Rotation:
+        if self.torque is not None and self.course is not None:
+            raise ValueError("torque beside course; allowed is one of them: the speed is given, or follows")
         return self

@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 BOTH, STIFFNESS, MASS = "both", "stiffness", "mass"
 COUNTS = (BOTH, STIFFNESS, MASS)
 """What a ring counts for."""
@@ -200,6 +202,18 @@ class Shoulder:
         if self.plain:
             return self.material.density * self.area * self.length
         return math.fsum(ring.moments_of_mass(self.length)[0] for ring in self.rings)
+
+    @property
+    def polar_inertia(self) -> float:
+        """About the axis [kg m2]; cones exactly, by Gauss's rule."""
+        points, weights = np.polynomial.legendre.leggauss(3)
+        fourth = sum(
+            weight * ring.material.density * (ring.outer(share) ** 4 - ring.inner(share) ** 4)
+            for ring in self.rings
+            if ring.heavy
+            for share, weight in zip(0.5 * (points + 1.0), 0.5 * weights, strict=True)
+        )
+        return float(math.pi / 32.0 * fourth * self.length)
 
     @property
     def centroid(self) -> float:

@@ -136,6 +136,11 @@ class Train:
         return math.fsum(s.mass for s in self.shoulders) + math.fsum(body.mass for body in self.bodies)
 
     @property
+    def polar_inertia(self) -> float:
+        """Of the whole train about its axis [kg m2]."""
+        return sum(s.polar_inertia for s in self.shoulders) + sum(b.polar_inertia for b in self.bodies)
+
+    @property
     def bodies(self) -> tuple[Wheel | LumpedMass, ...]:
         """All rigid bodies."""
         return (*self.wheels, *self.masses)

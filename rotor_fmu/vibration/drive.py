@@ -1,8 +1,7 @@
-"""The speed of the rotor: as an input says, along a course, or free under friction and windage.
+"""The speed of the rotor: as an input says, along a course, or free under torques.
 
-Free, the kinetic energy I W^2 / 2 of the rotation falls by the friction power of the bearings and by the
-power of the windage, c W^3 (its torque grows as the square of the speed).  What the vibration gives back to
-the rotation is left out.
+Free, the rotation goes on by its energy, see `rotor_fmu.vibration.spin`.  The driving torque is a law over
+the speed; windage grows as its square, friction comes as the power of each bearing.
 """
 
 from __future__ import annotations
@@ -11,12 +10,29 @@ import json
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from fmus.port import COURSE
+from fmus.port import COURSE, TORQUE
 
 Row = tuple[float, float]
+
+
+class Braking(NamedTuple):
+    """What acts on the rotation during a step.
+
+    Attributes
+    ----------
+    torque : float
+        Of the drive [N m], along the rotation.
+    friction, windage : float
+        Powers that brake [W].
+    """
+
+    torque: float = 0.0
+    friction: float = 0.0
+    windage: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -27,45 +43,55 @@ class Drive:
     ----------
     course : tuple of (float, float)
         Instants [s], ascending, and speeds there [rad/s], linear in between and constant outside; empty: the
-        speed is given from outside.
+        speed is given from outside, or free.
     inertia : float
         Of the train about its axis [kg m2].
     windage, windage_broken : float
         Torque over the square of the speed [N m s2], in vacuum and with the vacuum broken.
+    torque : tuple of (float, float)
+        Speeds [rad/s], ascending, and torques of the drive there [N m], linear in between and constant
+        outside; empty: the drive holds the speed, whatever that takes, until it is released.
     """
 
     course: tuple[Row, ...] = ()
     inertia: float = 0.0
     windage: float = 0.0
     windage_broken: float = 0.0
+    torque: tuple[Row, ...] = ()
 
     def on_course(self, time: float) -> float:
         """Speed of the course [rad/s]."""
-        times, speeds = zip(*self.course, strict=True)
-        return float(np.interp(time, times, speeds))
+        return _on(self.course, time)
 
-    def let_go(self, speed: float, step: float, friction: float, *, broken: bool) -> float:
-        """Speed at the end of a step in which nothing drives the rotor.
+    def braking(self, speed: float, friction: float, *, released: bool, broken: bool) -> Braking:
+        """What acts on the rotation at a speed [rad/s] under a power of friction [W].
 
         Parameters
         ----------
-        speed, step : float
-            At its start [rad/s], and its length [s].
-        friction : float
-            Power of the bearings' friction [W].
-        broken : bool
-            Whether the vacuum is broken.
+        released, broken : bool
+            Whether the drive has let go, and whether the vacuum is broken.
+        """
+        windage = (self.windage_broken if broken else self.windage) * abs(speed) ** 3
+        driven = bool(self.torque) and not released
+        return Braking(_on(self.torque, abs(speed)) if driven else 0.0, friction, windage)
+
+    def is_free(self, released: bool) -> bool:
+        """Whether torques decide the speed.
 
         Raises
         ------
         ValueError
-            Without an inertia.
+            If they do, but there is no inertia.
         """
-        if not self.inertia > 0.0:
-            raise ValueError(f"drive.inertia = {self.inertia} kg m2; allowed for a released rotor is > 0")
-        windage = (self.windage_broken if broken else self.windage) * abs(speed) ** 3
-        energy = 0.5 * self.inertia * speed**2 - step * (friction + windage)
-        return math.copysign(math.sqrt(max(0.0, 2.0 * energy / self.inertia)), speed)
+        free = released or bool(self.torque)
+        if free and not self.inertia > 0.0:
+            raise ValueError(f"drive.inertia = {self.inertia} kg m2; allowed for a free rotor is > 0")
+        return free
+
+
+def _on(rows: tuple[Row, ...], at: float) -> float:
+    places, values = zip(*rows, strict=True)
+    return float(np.interp(at, places, values))
 
 
 def course_of(text: str) -> tuple[Row, ...]:
@@ -76,14 +102,22 @@ def course_of(text: str) -> tuple[Row, ...]:
     ValueError
         Saying what is allowed.
     """
+    return _rows_of(text, COURSE, "rows of an instant in s, ascending, and a speed in rad/s")
+
+
+def torque_of(text: str) -> tuple[Row, ...]:
+    """The law of a drive in a text, ``[[0, 9e3], [157, 7e3]]``, likewise."""
+    return _rows_of(text, TORQUE, "rows of a speed in rad/s, ascending, and a torque in N m")
+
+
+def _rows_of(text: str, name: str, allowed: str) -> tuple[Row, ...]:
     if not text:
         return ()
     try:
-        course = tuple((float(time), float(speed)) for time, speed in json.loads(text))
+        rows = tuple((float(at), float(value)) for at, value in json.loads(text))
     except (TypeError, ValueError):
-        course = ()
-    finite = all(math.isfinite(x) for row in course for x in row)
-    if not course or not finite or any(b[0] <= a[0] for a, b in pairwise(course)):
-        allowed = "rows of an instant in s, ascending, and a speed in rad/s"
-        raise ValueError(f"{COURSE} = {text!r}; allowed are {allowed}")
-    return course
+        rows = ()
+    finite = all(math.isfinite(x) for row in rows for x in row)
+    if not rows or not finite or any(b[0] <= a[0] for a, b in pairwise(rows)):
+        raise ValueError(f"{name} = {text!r}; allowed are {allowed}")
+    return rows

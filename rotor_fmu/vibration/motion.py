@@ -74,7 +74,8 @@ class RotorMotion:
         positions = (_array(static), _array(cos), _array(sin))
         harmonic = self._maps.harmonic(self._speed)
         angle = self._angle_at(time)
-        self.set_state(initial_state.at_positions(self._condensed, harmonic, self._speed, positions, angle))
+        found = initial_state.at_positions(self._condensed, harmonic, self._speed, positions, angle)
+        self.set_state(replace(found, time=time))
 
     def start_from_law(
         self, F0: ArrayLike, K: ArrayLike, C: ArrayLike, *, orbit: bool, time: float = 0.0
@@ -98,7 +99,8 @@ class RotorMotion:
         law = (_array(F0), _array(K), _array(C))
         harmonic = self._maps.harmonic(self._speed)
         angle = self._angle_at(time)
-        self.set_state(initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit))
+        found = initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit)
+        self.set_state(replace(found, time=time))
 
     def kinematics(self) -> Array:
         """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""

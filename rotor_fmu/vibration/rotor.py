@@ -11,14 +11,18 @@ from rotor_fmu.reduction.reduce import Method
 from rotor_fmu.train.train import Train
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.drive import Braking
 from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
+from rotor_fmu.vibration.spin import Spin
 from rotor_fmu.vibration.state import RotorState
 from rotor_fmu.vibration.turning import Turning
 from rotor_fmu.vibration.unbalance import Unbalance, losses_of
 from rotor_fmu.vibration.work import Work, WorkLedger
 
 Array = NDArray[np.float64]
+
+_NOTHING = Braking()
 
 
 class Rotor(RotorMotion):
@@ -34,6 +38,8 @@ class Rotor(RotorMotion):
         In the direction of the train's gravity [m/s2].
     speed : float
         Speed at the start [rad/s].
+    inertia : float
+        Of the shaft about its axis [kg m2], for a free rotation and the energy of any.
     track_work : bool
         Keep account of the works, for the cost that `fmus.port.balance.TRACK_WORK` says; the first step
         of each size takes some seconds (minutes for the unreduced shaft).
@@ -61,11 +67,13 @@ class Rotor(RotorMotion):
         *,
         gravity: float,
         speed: float,
+        inertia: float = 0.0,
         track_work: bool = False,
     ) -> None:
         super().__init__(shaft, unbalance, gravity=gravity, speed=speed)
         self._stepper = AffineStep(self.shaft.bearings)
-        self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance) if track_work else None
+        self._spin = Spin(self.shaft, unbalance, inertia)
+        self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance, self._spin) if track_work else None
 
     @classmethod
     def of_train(
@@ -81,6 +89,7 @@ class Rotor(RotorMotion):
         blade_phase: ArrayLike | None = None,
         fracture_time: float = math.inf,
         losses: str = "",
+        inertia: float = 0.0,
         track_work: bool = False,
     ) -> Rotor:
         """The rotor of a train.
@@ -103,7 +112,7 @@ class Rotor(RotorMotion):
             Instant of the fracture [s].
         losses : str
             What is lost besides, see `rotor_fmu.vibration.unbalance.losses_of`.
-        track_work : bool
+        inertia, track_work : float, bool
             As for the class.
         """
         excitation = Unbalance.of_train(
@@ -120,10 +129,29 @@ class Rotor(RotorMotion):
             excitation,
             gravity=train.weight if gravity is None else gravity,
             speed=train.speed if speed is None else speed,
+            inertia=inertia,
             track_work=track_work,
         )
 
-    def step(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float) -> None:
+    def freely(self, t: float, H: float, F0: Array, K: Array, C: Array, now: Braking) -> None:
+        """Take a macro step in which torques decide the speed; otherwise as `step`."""
+        state = self._state
+        turn = state.angle, self.speed
+        speed = self._spin.speed_after(t, turn, H, self.modal_state(), now, state.owed)
+        self.step(t, H, F0, K, C, speed, now, free=True)
+
+    def step(
+        self,
+        t: float,
+        H: float,
+        F0: Array,
+        K: Array,
+        C: Array,
+        speed: float,
+        now: Braking = _NOTHING,
+        *,
+        free: bool = False,
+    ) -> None:
         """Take a macro step.
 
         Parameters
@@ -136,6 +164,10 @@ class Rotor(RotorMotion):
             The law of each bearing, valid through the step.
         speed : float
             At the end of the step [rad/s].
+        now : Braking
+            What brakes the rotation, for the works.
+        free : bool
+            Whether the rotation pays for what it does; else the drive holds the speed.
 
         Raises
         ------
@@ -154,7 +186,9 @@ class Rotor(RotorMotion):
             coordinates, maps, self._motion_in(coordinates), journals, F0, rotation, kick, state.static
         )
         self.holds_mean = nearer is not None
-        work = state.work
+        work, owed = state.work, 0.0
+        if self._ledger is not None or free:
+            states = self.modal_state(), coordinates.to_modal(end)
         if self._ledger is not None:
             after = journal_motion(coordinates, end, state.static)
             held = self._stepper.held(nearer, F0, journals, after, state.static)
@@ -162,13 +196,18 @@ class Rotor(RotorMotion):
                 turn = (state.angle, speed)
                 done = self._ledger.over_step((t, H), turn, self.modal_state(), held, state.static)
             else:
-                states = self.modal_state(), coordinates.to_modal(end)
                 done = self._ledger.over_turned_step(t, turning, states, held, state.static)
-            work = Work(*(a + b for a, b in zip(work, done, strict=True)))
+            account = self._spin.account(
+                t, turning, states, now, state.owed if free else None, done.unbalance
+            )
+            done = done._replace(drive=account.drive, friction=account.friction, windage=account.windage)
+            work, owed = Work(*(a + b for a, b in zip(work, done, strict=True))), account.owed
+        elif free:
+            given = self._spin.work(t, turning, states)
+            owed = self._spin.account(t, turning, states, now, state.owed, given).owed
         turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
-        self.set_state(
-            RotorState(end, turned, state.static, coordinates.speed, coordinates.basis, work, speed)
-        )
+        where = coordinates.speed, coordinates.basis
+        self.set_state(RotorState(end, turned, state.static, *where, work, speed, owed, t + H))
 
     def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:
         """Coordinates and maps of a step, rotation of the unbalances, and the kick of what appears in it."""
@@ -185,6 +224,10 @@ class Rotor(RotorMotion):
                 kicks.append(self._maps.turned_kick(turning.part(at - t), turning.reference, loss))
             coordinates, maps = self._maps.coordinates(turning.reference), self._maps.turned(turning, end)
         return coordinates, maps, self.unbalance.turned(t, pull), sum(kicks[1:], kicks[0]) if kicks else None
+
+    def energy_of_rotation(self) -> float:
+        """Kinetic energy of the rotation now, and of unbalance and vibration together [J]."""
+        return self._spin.energy(self._state.time, (self._state.angle, self.speed), self.modal_state())
 
     def work(self) -> Work:
         """Works since the start [J]; the rotor must keep account of them (`track_work`)."""

@@ -14,8 +14,8 @@ from rotor_fmu.vibration.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3q6d16s")
-_MAGIC = b"rotor\0\0\4"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s3q11d16s")
+_MAGIC = b"rotor\0\0\5"  # the last byte is the version of the layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +38,10 @@ class RotorState:
         Done since the start, if the rotor keeps account of it.
     turning : float or None
         Speed of rotation now [rad/s]; None for that of the start.
+    owed : float
+        Energy that a free rotation is still to gain [J], see `rotor_fmu.vibration.spin`.
+    time : float
+        Instant [s].
     """
 
     motion: Array
@@ -47,13 +51,17 @@ class RotorState:
     basis: bytes = b""
     work: Work = field(default_factory=Work)
     turning: float | None = None
+    owed: float = 0.0
+    time: float = 0.0
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
         static = self.static
         sizes = (len(self.motion), len(static.shape), len(static.wrench))
         speeds = (math.nan if speed is None else speed for speed in (self.speed, self.turning))
-        header = _HEADER.pack(_MAGIC, *sizes, self.angle, *speeds, *self.work, self.basis)
+        header = _HEADER.pack(
+            _MAGIC, *sizes, self.angle, *speeds, self.owed, self.time, *self.work, self.basis
+        )
         arrays = (self.motion, static.shape, static.journals, static.wrench)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
@@ -76,4 +84,4 @@ class RotorState:
         motion, shape, journals, wrench = np.split(values, np.cumsum(sizes)[:-1])
         speed, turning = (None if math.isnan(speed) else speed for speed in numbers[:2])
         static = Equilibrium(shape, journals, wrench)
-        return cls(motion, angle, static, speed, basis, Work(*numbers[2:]), turning)
+        return cls(motion, angle, static, speed, basis, Work(*numbers[4:]), turning, *numbers[2:4])

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.spin import Spin, simpson
 from rotor_fmu.vibration.state_space import augmented_matrix
 from rotor_fmu.vibration.turning import Turning
 from rotor_fmu.vibration.unbalance import Unbalance
@@ -26,11 +27,22 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 class Work(NamedTuple):
-    """Works [J]: of the bearings and of the unbalance on the shaft, and what is lost in its damping."""
+    """Works [J].
+
+    Attributes
+    ----------
+    bearings, unbalance, damping : float
+        On the vibrating shaft, of the bearings and of the unbalance, and what is lost in its damping.
+    drive, friction, windage : float
+        On the rotation, which does the work of the unbalance: of the drive, and what is lost.
+    """
 
     bearings: float = 0.0
     unbalance: float = 0.0
     damping: float = 0.0
+    drive: float = 0.0
+    friction: float = 0.0
+    windage: float = 0.0
 
 
 class WorkMaps(NamedTuple):
@@ -113,13 +125,19 @@ class WorkLedger:
         `WorkMaps` from speed, duration and instant at its end.
     unbalance : Unbalance
         Its excitation.
+    spin : Spin
+        The rotation, for its work at changing speed.
     """
 
     def __init__(
-        self, shaft: ModalShaft, maps: Callable[[float, float, float], WorkMaps], unbalance: Unbalance
+        self,
+        shaft: ModalShaft,
+        maps: Callable[[float, float, float], WorkMaps],
+        unbalance: Unbalance,
+        spin: Spin,
     ) -> None:
         self._shaft, self._maps = shaft, maps
-        self._unbalance, self._pull = unbalance, unbalance.forces(shaft, 1.0)
+        self._unbalance, self._spin = unbalance, spin
 
     def over_step(
         self,
@@ -188,15 +206,9 @@ class WorkLedger:
             At both ends.
         """
         H, (w0, w1) = turning.step, wrenches
-        (p0, v0), (p1, v1) = (np.split(state, 2) for state in states)
-        p = p0, 0.5 * (p0 + p1) + 0.125 * H * (v0 - v1), p1
-        v = v0, 1.5 * (p1 - p0) / H - 0.25 * (v0 + v1), v1
-        drive = damping = 0.0
-        for at, weight, p_at, v_at in zip((0.0, 0.5, 1.0), (1.0, 4.0, 1.0), p, v, strict=True):
-            turned = self._unbalance.turned(t + at * H, turning.pull_at(at * H))
-            force = self._pull @ turned - turning.acceleration * (self._shaft.G @ p_at)
-            drive += weight * H / 6.0 * float(force @ v_at)
-            damping += weight * H / 6.0 * float(v_at @ (self._shaft.D @ v_at))
+        points = simpson(states, H)
+        damping = sum(weight * float(v @ (self._shaft.D @ v)) for _, weight, _, v in points)
+        (p0, v0), (p1, v1) = points[0][2:], points[-1][2:]
         moved, turned = self._shaft.bearing @ (p1 - p0), self._shaft.bearing @ (v1 - v0)
         bearings = (0.5 * (w0 + w1) + static.wrench) @ moved + (w1 - w0) @ turned * (H / 12.0)
-        return Work(float(bearings), drive, damping)
+        return Work(float(bearings), self._spin.work(t, turning, states), damping)

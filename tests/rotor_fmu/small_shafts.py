@@ -37,12 +37,12 @@ def unreduced(M, D, G, K, *, bearings=(0,), wheels=(0,), gravity=None):
     return model, reduced
 
 
-def matrix_rotor(model, reduced, excitation, *, gravity, speed, track_work=False):
+def matrix_rotor(model, reduced, excitation, *, gravity, speed, **more):
     """A rotor of matrices; they do not tell of bending moments, which here are none."""
     n = model.size
     bending = BendingStress(sp.csr_array((n, n)), np.zeros(n), np.ones((2, n // 4)))
     shaft = PreparedShaft(model, reduced, to_modal(reduced), bending)
-    return Rotor(shaft, excitation, gravity=gravity, speed=speed, track_work=track_work)
+    return Rotor(shaft, excitation, gravity=gravity, speed=speed, **more)
 
 
 def gyroscopic(seed=1, nodes=3):

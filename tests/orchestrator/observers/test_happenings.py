@@ -9,6 +9,7 @@ from fmus import port
 from orchestrator.case.simulate import simulate
 from orchestrator.fmi.folder import build
 from orchestrator.observers.happenings import Happenings
+from orchestrator.results.ledger import ledger_of
 from orchestrator.scenario.events import Trip, VacuumBreak
 from orchestrator.scenario.file import load_scenario
 from orchestrator.scenario.schedule import from_attributes
@@ -77,7 +78,7 @@ def fan(once):
 
 def test_a_coast_down_obeys_its_torques(fan):
     """What the rotation loses is what friction and windage took; housings move, the record knows it all."""
-    changes = {"end": 0.16, "events": [
+    changes = {"end": 0.16, "ledger": True, "events": [
         {"wheel": "wheel", "unbalance": 0.05, "time": 0.02},
         {"kind": "trip", "vibration": 2e-5, "lasting": 0.01},
         {"kind": "vacuum-break", "time": 0.13},
@@ -96,5 +97,10 @@ def test_a_coast_down_obeys_its_torques(fan):
         lost = 0.5 * 34.0 * (speed[inside][0] ** 2 - speed[inside][-1] ** 2)
         assert lost == pytest.approx(np.trapezoid(power[inside], time[inside]), rel=5e-3)
     assert np.abs(record["housing_displacement"]).max() > 1e-6
+    whole = 0.5 * 34.0 * (speed[0] ** 2 - speed[-1] ** 2)
+    ledger = ledger_of(record)
+    assert ledger.rotation.stored == pytest.approx(-whole, rel=1e-4)
+    assert abs(ledger.rotation.gap) < 1e-4 * whole
+    assert abs(ledger.relative_gap) < 5e-3
     held = record["foundation_force"].isel(time=0).values + record["static_force"].values
     assert np.abs(held).max() < 0.5 * np.abs(record["static_force"]).max()

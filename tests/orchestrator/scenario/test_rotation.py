@@ -31,13 +31,16 @@ def test_a_condition_has_no_instant_beforehand():
     assert [event.kind for event in schedule_of(scenario, train).events] == ["blade-loss"]
     assert scenario.start_speed(train.speed) == train.speed
     assert rotor_parameters(scenario, train)["drive.inertia"] == 34.0
+    driven, _ = load_with_train(FAN / "coast-down.toml", {"rotation": {"torque": 250.0}})
+    assert rotor_parameters(driven, train)["drive.torque"] == "[[0.0, 250.0]]"
     assert parse_scenario(scenario_toml(scenario), FAN, "again") == scenario
 
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("inertia = 34.0", "windage_broken = 1.0", "allowed is it beside rotation.inertia above 0"),
+        ("inertia = 34.0", "torque = 5.0\ncourse = [[0.0, 7.0]]", "torque beside course"),
+        ("inertia = 34.0", "torque = [[2.0, 1.0], [1.0, 1.0]]", "speeds ascending from 0 on"),
         ("vibration = 20e-6", "vibration = 20e-6\ntime = 1.0", "one of time, vibration, least_gap and speed"),
         ("inertia = 34.0", "inertia = 34.0\ncourse = [[1.0, 2.0], [0.0, 3.0]]", "instants ascending"),
         ("inertia = 34.0", "inertia = 34.0\ncourse = [[0.0, 7000.0]]", "a tenth of a revolution"),
