@@ -15,7 +15,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from rotor_fmu.linear.whirl import eigenmodes
+from rotor_fmu.linear.eigenmodes import eigenmodes
 from rotor_fmu.reduction.irs import elastic_scale, irs_iterations
 from rotor_fmu.reduction.masters import default_masters
 from rotor_fmu.reduction.reduce import DEFAULT_SIZE, ReducedShaft, project

@@ -12,23 +12,16 @@ from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
-import scipy.linalg as sl
 import scipy.sparse as sp
-import scipy.sparse.linalg as sla
 from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.foundation.foundation import Foundation
+from rotor_fmu.linear.eigenmodes import eigenmodes
 from rotor_fmu.reduction.reduce import ReducedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-
-_DENSE = 250
-"""Degrees of freedom up to which all eigenvalues are computed densely."""
-
-_SHIFT = 1.0
-"""Where the sparse solver looks first, near zero but off the rigid-body modes [rad/s]."""
 
 
 class Bearings(Protocol):
@@ -208,48 +201,3 @@ def campbell(
         whirl_modes(shaft, speed, count, bearings=bearings, above=above)
         for speed in np.asarray(speeds, dtype=np.float64)
     ]
-
-
-def eigenmodes(
-    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
-) -> tuple[Complex, Complex]:
-    """Eigenvalues [1/s] of least modulus of M q'' + D q' + K q = 0, at least `count`, and their vectors.
-
-    Parameters
-    ----------
-    mass, damping, stiffness : scipy.sparse.csc_array, (n, n)
-        Real or complex; the mass positive definite.
-    count : int
-        Wanted; all 2 n are returned of a small system, and never more.
-    """
-    n = mass.shape[0]
-    if n <= _DENSE:
-        return _dense_modes(*(_to_dense(A) for A in (mass, damping, stiffness)))
-    return _sparse_modes(mass, damping, stiffness, min(count, 2 * n - 2))
-
-
-def _dense_modes(mass: Array, damping: Array, stiffness: Array) -> tuple[Complex, Complex]:
-    n = len(mass)
-    factor = sl.cho_factor(mass)
-    companion = np.block(
-        [[np.zeros((n, n)), np.eye(n)], [-sl.cho_solve(factor, stiffness), -sl.cho_solve(factor, damping)]]
-    )
-    values, vectors = sl.eig(companion)
-    return values, vectors
-
-
-def _sparse_modes(
-    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, count: int
-) -> tuple[Complex, Complex]:
-    """Shift and invert twice; the second shift keeps the defective rigid-body modes at a distance."""
-    n = mass.shape[0]
-    companion = sp.block_array([[None, sp.eye_array(n)], [-stiffness, -damping]], format="csc")
-    metric = sp.block_diag([sp.eye_array(n), mass], format="csc")
-    start = np.random.default_rng(0).normal(size=2 * n)  # ARPACK's own start is not reproducible
-    rough = sla.eigs(companion, count, metric, sigma=_SHIFT, v0=start, return_eigenvectors=False, tol=1e-3)
-    values, vectors = sla.eigs(companion, count, metric, sigma=float(np.median(np.abs(rough))), v0=start)
-    return values, vectors
-
-
-def _to_dense(matrix: sp.csc_array) -> Array:
-    return np.asarray(matrix.toarray())

@@ -75,6 +75,8 @@ class ReducedShaft:
         the first entry being Guyan's; else empty.
     foundation : Foundation or None
         What the bearings stand on, where that moves; it is not reduced.
+    trace : ndarray, (n,), or None
+        Of the unreduced shaft, see `ShaftModel`.
     """
 
     M: Array
@@ -89,6 +91,7 @@ class ReducedShaft:
     reason: str = ""
     history: tuple[tuple[float, ...], ...] = ()
     foundation: Foundation | None = None
+    trace: Array | None = None
 
     @property
     def size(self) -> int:
@@ -233,4 +236,5 @@ def project(model: ShaftModel, basis: Basis, method: str) -> ReducedShaft:
         method=method,
         history=basis.history,
         foundation=model.foundation,
+        trace=model.trace,
     )

@@ -1,4 +1,8 @@
-"""Places of the shaft without inertia, which the dynamics cannot do without: they get a trace of it."""
+"""Places of the shaft without inertia, which the dynamics cannot do without: they get a trace of it.
+
+What moves with the trace alone, far above all that a machine does, must not ring: in a run such a mode is
+damped (`rotor_fmu.vibration.modal_shaft`), so that it follows its load as a massless spring does.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +18,8 @@ MOST = 1e-5
 """Of the shaft's mass, for any number of places."""
 
 
-def with_trace(mass: sp.csr_array, stiffness: sp.csr_array, total: float) -> sp.csr_array:
-    """The mass matrix of one plane, positive definite.
+def trace_of(mass: sp.csr_array, stiffness: sp.csr_array, total: float) -> NDArray[np.float64] | None:
+    """Inertia by which the mass matrix of one plane becomes positive definite, (2 N,); None where it is.
 
     Frequencies change by less than the share of the mass that is added, 1e-6 for ten places.
 
@@ -34,7 +38,7 @@ def with_trace(mass: sp.csr_array, stiffness: sp.csr_array, total: float) -> sp.
     own: NDArray[np.float64] = mass.diagonal()
     bare = own <= 0.0
     if not bare.any():
-        return mass
+        return None
     if not total > 0.0:
         raise ValueError("the shaft has no mass; allowed are shoulders, wheels or masses that have some")
     places = int((bare[0::2] | bare[1::2]).sum())
@@ -42,4 +46,4 @@ def with_trace(mass: sp.csr_array, stiffness: sp.csr_array, total: float) -> sp.
     stiff = stiffness.diagonal()
     # A slope as much as swings with the deflection beside it.
     trace = np.column_stack([np.full(len(own) // 2, each), each * stiff[1::2] / stiff[0::2]]).ravel()
-    return sp.csr_array(mass + sp.diags_array(np.where(bare, trace, 0.0)))
+    return np.where(bare, trace, 0.0)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rotor_fmu.foundation.foundation import Foundation, foundation_of
 from rotor_fmu.shaft.beam import element_matrices
-from rotor_fmu.shaft.massless import with_trace
+from rotor_fmu.shaft.massless import trace_of
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -52,6 +52,8 @@ class ShaftModel:
         What elastic couplings, which have dampers of their own, add to the Rayleigh damping of one plane.
     foundation : Foundation or None
         What the bearings stand on, where that moves.
+    trace : ndarray, (n,), or None
+        Of M what massless places have in place of inertia.
     """
 
     M: sp.csr_array
@@ -70,6 +72,7 @@ class ShaftModel:
     plane_gravity: Array
     plane_dampers: sp.csr_array | None = None
     foundation: Foundation | None = None
+    trace: Array | None = None
 
     @property
     def nodes(self) -> int:
@@ -130,7 +133,9 @@ def assemble(train: Train) -> ShaftModel:
         # Rayleigh's damping is that of the shaft's material.
         of_joints = np.where(elements.joint[:, None, None], elements.stiffness, 0.0)
         dampers = _assembled(elements.damping - train.rayleigh_beta * of_joints)
-    mass = with_trace(mass, stiffness, train.mass)
+    trace = trace_of(mass, stiffness, train.mass)
+    if trace is not None:
+        mass = sp.csr_array(mass + sp.diags_array(trace))
 
     x, y = plane_x(nodes), plane_y(nodes)
     M = _both_planes(mass, x, y)
@@ -162,6 +167,7 @@ def assemble(train: Train) -> ShaftModel:
         plane_gravity=load,
         plane_dampers=dampers,
         foundation=foundation_of(train),
+        trace=None if trace is None else abs(x) @ trace + abs(y) @ trace,
     )
 
 

@@ -40,6 +40,30 @@ def grade(default: Any = ...) -> Any:
     return within(0.0, 0.1, "m/s; G2.5 is 2.5e-3", default)
 
 
+LARGEST_GRAVITY = 100.0
+"""In any direction [m/s2]."""
+
+
+def gravity_vector(value: Any) -> list[float]:
+    """[x, y] or [x, y, z], or one number, which acts downwards."""
+    down = [0.0, 0.0 - value] if _is_number(value) and value >= 0.0 else value
+    if (
+        not isinstance(down, list)
+        or len(down) not in (2, 3)
+        or not all(_is_number(g) and abs(g) <= LARGEST_GRAVITY for g in down)
+    ):
+        allowed = (
+            f"[x, y] or [x, y, z], each a number of at most {LARGEST_GRAVITY:g} m/s2, or one number, not "
+            'below 0, for that much downwards (along -y), or 0 or "none"'
+        )
+        raise PydanticCustomError("unit", "{allowed}", {"allowed": allowed})
+    return [float(g) for g in down]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 class Entry(BaseModel):
     """Immutable; an unknown key is an error, true or "1" are no numbers, "450 mm" is one."""
 
@@ -50,9 +74,13 @@ class Entry(BaseModel):
     def _in_si(cls, value: Any, info: ValidationInfo) -> Any:
         assert info.field_name is not None
         unit = unit_of(cls, info.field_name)
+        if info.field_name == "gravity" and value == "none":
+            return 0.0
         try:
             return converted(value, unit) if unit else value
         except ValueError as error:
+            if info.field_name == "gravity":
+                return value  # `gravity_vector` says what is allowed
             raise PydanticCustomError("unit", "{allowed}", {"allowed": str(error)}) from None
 
 

@@ -30,20 +30,25 @@ class Compliance:
     ----------
     start, end : ndarray, (n_b, 8, 4 n_b)
         From wrenches that fall linearly to 0 at the end, and that rise linearly from 0 at the start.
+    following : ndarray, (4 n_b, 4 n_b), or None
+        Displacements that follow the wrenches at once, as of massless journals; they upset no step.
     mixed : ndarray, (4 n_b, 4 n_b)
-        Of `end` the displacements alone.
+        Of `end` the displacements alone, without those.
     own : ndarray, (n_b, 4, 4)
         Of those, of each journal by its own wrench, transposed.
     """
 
     start: Array
     end: Array
+    following: Array | None = None
     mixed: Array = field(init=False)
     own: Array = field(init=False)
 
     def __post_init__(self) -> None:
         each = np.arange(len(self.end))
         mixed = self.end[:, :4]
+        if self.following is not None:
+            mixed = mixed - self.following.reshape(mixed.shape)
         own = mixed.reshape(len(each), 4, len(each), 4)[each, :, each]
         object.__setattr__(self, "mixed", np.ascontiguousarray(mixed.reshape(4 * len(each), -1)))
         object.__setattr__(self, "own", own.transpose(0, 2, 1).copy())

@@ -18,6 +18,9 @@ from rotor_fmu.reduction.reduce import ReducedShaft
 
 Array = NDArray[np.float64]
 
+TRACE_DAMPING = 0.7
+"""Damping ratio of modes in which nothing moves but what has no mass: they follow, and do not ring."""
+
 
 @dataclass(frozen=True, eq=False)
 class ModalShaft:
@@ -37,6 +40,8 @@ class ModalShaft:
         Wheel displacements (x, y) from p.
     T : ndarray, (n, m)
         Displacements of the unreduced shaft from p.
+    massless : ndarray of bool, (m,), or None
+        Modes in which nothing moves but what has no mass, if there are any.
     """
 
     omega: Array
@@ -45,6 +50,7 @@ class ModalShaft:
     bearing: Array
     wheels: Array
     T: Array
+    massless: NDArray[np.bool_] | None = None
 
     @property
     def size(self) -> int:
@@ -55,6 +61,14 @@ class ModalShaft:
     def bearings(self) -> int:
         """Number n_b of bearings."""
         return len(self.bearing) // 4
+
+    @property
+    def following(self) -> Array | None:
+        """Displacements of the journals that follow wrenches at once, (4 n_b, 4 n_b): of massless modes."""
+        if self.massless is None:
+            return None
+        moved = self.bearing[:, self.massless]
+        return np.asarray(moved / self.omega[self.massless] ** 2 @ moved.T)
 
     def dynamic_stiffness(self, speed: float) -> NDArray[np.complex128]:
         """Z with Z X = f for p = Re(X exp(i speed t)), (m, m)."""
@@ -100,13 +114,20 @@ def to_modal(reduced: ReducedShaft) -> ModalShaft:
         squares[columns] = values
         at += len(group)
     omega = np.sqrt(_without_noise(squares))
+    T = np.ascontiguousarray(reduced.T @ modes)
+    damping = modes.T @ reduced.D @ modes
+    massless = None
+    if reduced.trace is not None:
+        massless = reduced.trace @ T**2 > 0.5  # of the kinetic energy
+        damping[np.diag_indices(len(M))] += np.where(massless, 2.0 * TRACE_DAMPING * omega, 0.0)
     return ModalShaft(
         omega=omega,
-        D=modes.T @ reduced.D @ modes,
+        D=damping,
         G=modes.T @ reduced.G @ modes,
         bearing=np.ascontiguousarray(reduced.bearing @ modes),
         wheels=np.ascontiguousarray(reduced.wheels @ modes),
-        T=np.ascontiguousarray(reduced.T @ modes),
+        T=T,
+        massless=massless,
     )
 
 

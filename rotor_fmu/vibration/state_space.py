@@ -145,7 +145,7 @@ def step_maps(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> 
     output = journal_output(shaft)
     start = free[:, 2 * m : 2 * m + loads]
     of_start, of_end = ((output @ part).reshape(-1, 8, loads) for part in (start, end))
-    return StepMaps(free, end, Compliance(of_start, of_end))
+    return StepMaps(free, end, Compliance(of_start, of_end, shaft.following))
 
 
 def augmented_matrix(shaft: ModalShaft, speed: float, step: float, harmonic: Array) -> tuple[Array, Array]:

@@ -38,6 +38,7 @@ def supported(shaft: ModalShaft, foundation: Foundation | None) -> ModalShaft:
         bearing=np.hstack([shaft.bearing, -foundation.shapes]),
         wheels=widened(shaft.wheels),
         T=widened(shaft.T),
+        massless=None if shaft.massless is None else np.append(shaft.massless, np.zeros(k, bool)),
     )
 
 
@@ -154,7 +155,9 @@ class SupportedCoordinates:
                 (foundation.shapes @ rows).reshape(-1, 4, part.shape[1]) for rows in (part[:k], part[k:])
             ]
             parts.append(of_shaft - np.concatenate(moved, axis=1))
-        return SupportedMaps(maps, self._states, free, start, end, Compliance(*parts))
+        return SupportedMaps(
+            maps, self._states, free, start, end, Compliance(parts[0], parts[1], maps.compliance.following)
+        )
 
 
 def _mode_exponentials(foundation: Foundation, step: float) -> tuple[Array, Array]:

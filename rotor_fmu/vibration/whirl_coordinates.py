@@ -87,6 +87,8 @@ class WhirlCoordinates:
         The shaft.
     speed : float
         [rad/s].
+    following : ndarray, (4 n_b, 4 n_b), or None
+        See `Compliance`.
 
     Raises
     ------
@@ -94,10 +96,10 @@ class WhirlCoordinates:
         If elastic modes do not decouple, as at critical damping.
     """
 
-    def __init__(self, plane: WhirlPlane, speed: float) -> None:
+    def __init__(self, plane: WhirlPlane, speed: float, following: Array | None = None) -> None:
         k = len(plane.omega)
         self.speed = speed
-        self._plane = plane
+        self._plane, self._following = plane, following
         elastic = plane.omega[plane.omega > 0.0]
         least = elastic.min() if elastic.size else 1.0
         # Displacements times frequency are of the size of velocities: A is then nearly normal.
@@ -150,7 +152,8 @@ class WhirlCoordinates:
         start = np.vstack([start, np.hstack([falling[:, None] * load[slow:], turned])])
         end = np.vstack([end, rising[:, None] * load[slow:]])
         of_start, of_end = (_as_real(self._journals @ part[:, : end.shape[1]]) for part in (start, end))
-        return WhirlMaps(block, np.exp(self._rates * step), start, end, Compliance(of_start, of_end))
+        compliance = Compliance(of_start, of_end, self._following)
+        return WhirlMaps(block, np.exp(self._rates * step), start, end, compliance)
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""
@@ -179,7 +182,7 @@ def whirl_coordinates(shaft: ModalShaft, speed: float) -> WhirlCoordinates | Non
     if plane is None:
         return None
     try:
-        return WhirlCoordinates(plane, speed)
+        return WhirlCoordinates(plane, speed, shaft.following)
     except (NotDecoupledError, np.linalg.LinAlgError):
         return None
 

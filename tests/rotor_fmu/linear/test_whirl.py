@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rotor_fmu.linear import whirl
+from rotor_fmu.linear import eigenmodes
 from rotor_fmu.linear.whirl import campbell, whirl_modes
 from rotor_fmu.reduction.reduce import reduce
 from rotor_fmu.shaft.matrices import assemble
@@ -103,7 +103,7 @@ def test_sparse_solver_agrees_with_the_dense_one(monkeypatch):
     model = reduce(assemble(load_train("turbine")), "craig-bampton")
     speed = 50.0 * math.pi
     sparse = whirl_modes(model, speed, 16, above=2.0)
-    monkeypatch.setattr(whirl, "_DENSE", model.size)
+    monkeypatch.setattr(eigenmodes, "_DENSE", model.size)
     dense = whirl_modes(model, speed, 16, above=2.0)
     assert dense.frequency == pytest.approx(sparse.frequency, rel=1e-6)
     assert dense.direction == pytest.approx(sparse.direction, abs=1e-6)

@@ -76,7 +76,15 @@ def test_the_example_is_the_same_after_writing(example, tmp_path):
     assert example.joint_of(example.couplings[0]) == Joint(4e7, 6e4, 2e3, 5.0)
 
 
-UPRIGHT = [("[0.0, 0.0, -9.81]", (0.0, 0.0)), ('["9.81 m/s2", 0]', (9.81, 0.0)), ("[0.0, 0.0]", (0.0, 0.0))]
+UPRIGHT = [
+    ("[0.0, 0.0, -9.81]", (0.0, 0.0)),
+    ('["9.81 m/s2", 0]', (9.81, 0.0)),
+    ("[0.0, 0.0]", (0.0, 0.0)),
+    ("0.0", (0.0, 0.0)),
+    ('"none"', (0.0, 0.0)),
+    ("1.62", (0.0, -1.62)),
+    ('"9.81 m/s2"', (0.0, -9.81)),
+]
 
 
 @pytest.mark.parametrize(("text", "gravity"), UPRIGHT)

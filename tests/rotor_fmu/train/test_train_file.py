@@ -34,6 +34,9 @@ IN_TOML = [
     ("[damping]", "[dampings]",
      ["dampings: unknown key; did you mean 'damping'? allowed are name, speed, balance_grade, "
       "gravity, shaft, foundation, damping, materials, wheel, bearing, coupling, mass"]),
+    ('name = "small"', 'name = "small"\ngravity = -9.81',
+     ["gravity = -9.81; allowed is [x, y] or [x, y, z], each a number of at most 100 m/s2, or one number, "
+      'not below 0, for that much downwards (along -y), or 0 or "none"']),
     ("youngs_modulus = 210000000000.0", "youngs_modulus = 210.0",
      ["materials: steel: youngs_modulus = 210.0; allowed is a number greater than 1e+08 Pa; "
       "did you give MPa?"]),
