@@ -87,7 +87,7 @@ def relative_eccentricity(bore: Bore, q: Floats, centre: float) -> float:
 
 @inner_kernel
 def place_rings(
-    bore: Bore, circle: Floats, q: Floats, coordinates: int, grading: Floats, rings: Floats
+    bore: Bore, circle: Floats, q: Floats, coordinates: int, part: float, grading: Floats, rings: Floats
 ) -> None:
     """Place columns and faces.
 
@@ -99,6 +99,8 @@ def place_rings(
         Columns and faces; cos and sin of the uniform angle.
     coordinates : int
         For how many of the coordinates the motion is wanted: 4, or 2 for an aligned journal.
+    part : float
+        Of the usual grading of a plain bore, 1, or less where the pressure lies in the wide gap.
     grading : ndarray, shape (7, 4)
         Work space.
     rings : ndarray, shape (2, RING_ROWS, m)
@@ -107,6 +109,9 @@ def place_rings(
     if bore is None:
         a, da = grading[0, :2], grading[1:3]
         grade(q, 1.0, a, da, grading[3:, :2])
+        if part != 1.0:
+            a *= part
+            da *= part
         for side in range(2):
             place(circle[side], a, da, coordinates, rings[side])
     else:

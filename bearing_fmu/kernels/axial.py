@@ -69,6 +69,28 @@ class AxialBasis:
                     values[:, j] *= (t - node[k]) / (node[j] - node[k])
         return values
 
+    def lines(self, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The basis on lines at the points of Gauss' rule, and how functions of z there are brought back.
+
+        Returns
+        -------
+        values : ndarray, shape (count, rows)
+            Basis functions (columns) on the lines (rows).
+        back : ndarray, shape (count, rows)
+            Lagrange polynomials of the interior nodes, times the lines' weights over those of the nodes: sums
+            over the lines become sums over the rows, exactly for constants.
+        """
+        t, weights = np.polynomial.legendre.leggauss(count)
+        weights = weights * self.clustering / np.cosh(self.clustering * t) ** 2 / np.tanh(self.clustering)
+        weights *= 2.0 / weights.sum()
+        node = np.arctanh(self.nodes[: self.rows] * np.tanh(self.clustering)) / self.clustering
+        back = np.ones((count, self.rows))
+        for j in range(self.rows):
+            for k in range(self.rows):
+                if k != j:
+                    back[:, j] *= (t - node[k]) / (node[j] - node[k])
+        return self.interpolation(self.place(t)), weights[:, None] * back / self.weights[: self.rows]
+
 
 def end_slopes(basis: AxialBasis) -> NDArray[np.float64]:
     """Derivatives by t, at all nodes, of the polynomials that are 1 at one end, shape (2, rows + 2).

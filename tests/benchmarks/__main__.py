@@ -1,4 +1,4 @@
-"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g]``."""
+"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g h]``."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 from tests.benchmarks import (  # noqa: E402
+    corners,
     error_against_cost,
     film_cost,
     growth,
@@ -27,6 +28,7 @@ BENCHMARKS = {
     "e": threads.main,
     "f": mass_conserving.main,
     "g": work_precision.main,
+    "h": corners.main,
 }
 
 

@@ -40,11 +40,11 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _shape_gap(film: AlignedFilm, bore: Bore, q: Floats, v: Floats, sigma: float) -> None:
+def _shape_gap(film: AlignedFilm, bore: Bore, q: Floats, v: Floats, sigma: float, part: float) -> None:
     """Grid, gap, conductances and squeezed volume."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    place_rings(bore, film.circle, q, 2, film.grading, film.rings)
+    place_rings(bore, film.circle, q, 2, part, film.grading, film.rings)
     rough = least_gap(bore, q)[0] < ROUGH_LIMIT * sigma
     film.fields[:, POWER] = LAMINAR_POWER
     for side in range(2):
@@ -266,11 +266,12 @@ def solve_aligned(
     feed: float,
     sigma: float,
     reynolds: float,
+    part: float,
     result: Floats,
 ) -> bool:
     """Wrench and tangent of the aligned film; parameters and result as in `reynolds.solve_pressure`."""
     result[:] = 0.0
-    _shape_gap(film, bore, q, v, sigma)
+    _shape_gap(film, bore, q, v, sigma, part)
     if reynolds > 0.0:
         slow_down(reynolds, film.circle.shape[2], ALONG, film.fields[0])
         slow_down(reynolds, film.circle.shape[2], AROUND, film.fields[1])

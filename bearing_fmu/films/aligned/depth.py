@@ -15,10 +15,12 @@ from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.aligned.aligned import solve_aligned
 from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
+from bearing_fmu.films.corners import SPREAD, leaving, mix
 from bearing_fmu.films.tilted.depth import LAYERED
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
 from fmus.port.variable import Value
@@ -31,10 +33,18 @@ def _solve(
     film: AlignedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
     reynolds = scales.reynolds * abs(speed)
-    if not solve_aligned(
-        film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, result
-    ):
-        return NO_SOLUTION
+    change, usual = np.empty(8), np.empty(RESULTS)
+    share = leaving(q, v, speed, change) if bore is None else 0.0
+    for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
+        part = SPREAD if spread == 1 else 1.0
+        if not solve_aligned(
+            film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, part, result
+        ):
+            return NO_SOLUTION
+        if spread == 0 and share > 0.0:
+            usual[:] = result
+    if 0.0 < share < 1.0:
+        mix(usual, share, change, result)
     return OK
 
 

@@ -67,7 +67,7 @@ def _shape(jfo: JfoFilm, bore: Bore, q: Floats, sigma: float, reynolds: float) -
     film, across = jfo.film, jfo.across
     n, m = jfo.volumes.shape
     cell = 2.0 * np.pi / m
-    shape_gap(film, bore, q, sigma)
+    shape_gap(film, bore, q, sigma, 1.0)
     rough = least_gap(bore, q)[0] < ROUGH_LIMIT * sigma
     metric = film.rings[0, METRIC]
     across[POWER] = LAMINAR_POWER

@@ -14,6 +14,7 @@ from bearing_fmu.contact.layer import layer_table
 from bearing_fmu.contact.slice import AREA, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel, port_kernel
 from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.corners import SPREAD, leaving, mix
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.layered import LayeredFilm, layered_film, solve_layered
@@ -23,6 +24,7 @@ from bearing_fmu.films.tilted.tangent import add_tangent
 from bearing_fmu.films.tilted.workspace import STOCK, TiltedFilm, tilted_film
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
 from fmus.port.variable import Value
@@ -35,21 +37,32 @@ def _solve(
     film: TiltedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
     reynolds = scales.reynolds * abs(speed)
-    status = solve_pressure(
-        film,
-        bore,
-        q,
-        v,
-        speed,
-        scales.ambient,
-        scales.feed,
-        scales.sigma,
-        reynolds,
-        scales.ruptures,
-        result,
-    )
-    if status == OK:
+    change, usual = np.empty(8), np.empty(RESULTS)
+    share = leaving(q, v, speed, change) if bore is None else 0.0
+    status = OK
+    for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
+        part = SPREAD if spread == 1 else 1.0
+        status = solve_pressure(
+            film,
+            bore,
+            q,
+            v,
+            speed,
+            scales.ambient,
+            scales.feed,
+            scales.sigma,
+            reynolds,
+            scales.ruptures,
+            part,
+            result,
+        )
+        if status != OK:
+            break
         add_tangent(film, bore, q, v, speed, result)
+        if spread == 0 and share > 0.0:
+            usual[:] = result
+    if status == OK and 0.0 < share < 1.0:
+        mix(usual, share, change, result)
     return status
 
 

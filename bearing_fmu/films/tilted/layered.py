@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.layer import deflection, rough_flow
+from bearing_fmu.films.tilted.lines import SHARE
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
 from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.films.tilted.workspace import TiltedFilm
@@ -214,7 +215,8 @@ def solve_layered(
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
-    shape_gap(film, None, q, sigma)
+    shape_gap(film, None, q, sigma, 1.0)
+    film.mixed[SHARE] = 0.0
     film.pressures[0] = 0.0
     status = NOT_CONVERGED
     for _ in range(ROUNDS):

@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
+from bearing_fmu.films.corners import turning_round
 from bearing_fmu.films.tilted.grooves import hold_grooves, pressure_drag
+from bearing_fmu.films.tilted.lines import CHANGE, SHARE, take_lines, wrench_of
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
 from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.films.tilted.workspace import TiltedFilm
@@ -50,11 +52,11 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float) -> None:
+def shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float, part: float) -> None:
     """Grid, gap and conductances at the columns (axial flow) and at the faces (flow around)."""
     m = film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    place_rings(bore, film.circle, q, 4, film.grading, film.rings)
+    place_rings(bore, film.circle, q, 4, part, film.grading, film.rings)
     rough = least_gap(bore, q)[0] < ROUGH_LIMIT * sigma
     film.column[POWER] = LAMINAR_POWER
     film.face[POWER] = LAMINAR_POWER
@@ -154,8 +156,6 @@ def integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> N
     """Wrench of the bearing part of the pressure, largest pressure, shear integral."""
     n, m = film.face.shape[1], film.circle.shape[2]
     cell = 2.0 * np.pi / m
-    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
-    result[:4] = 0.0
     shear = 0.0
     for j in range(n):
         above, pressure = film.column[ABSOLUTE, j], film.pressures[0, j]
@@ -163,16 +163,9 @@ def integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> N
             above[i] = pressure[i] + ambient
         part = film.nodal[0, j]
         bearing_part(above, m, part, film.nodal[1, j], film.nodal[2, j], film.nodal[3, j])
-        along, across = 0.0, 0.0
-        for i in range(m):
-            along += part[i] * metric[i] * cos[i]
-            across += part[i] * metric[i] * sin[i]
-        along *= film.weights[j] * cell
-        across *= film.weights[j] * cell
-        result[0] -= along
-        result[1] -= across
-        result[2] += film.nodes[j] * across
-        result[3] -= film.nodes[j] * along
+    wrench_of(film, film.nodal[0], result)
+    if film.mixed[SHARE] > 0.0:
+        take_lines(film, ambient, result)
     metric = land(bore, film.rings[0])
     for j in range(n + 2):
         t = film.column[OPEN, j]
@@ -238,6 +231,7 @@ def solve_pressure(
     sigma: float,
     reynolds: float,
     ruptures: int,
+    part: float,
     result: Floats,
 ) -> int:
     """Solve for the pressure and integrate it.
@@ -262,6 +256,8 @@ def solve_pressure(
         Of the clearance, rho U C / eta, where the film may be turbulent; 0 for a laminar one.
     ruptures : int
         1 for Reynolds' condition, 0 for Guembel's.
+    part : float
+        Of the usual grading of the grid, see `bore.bore.place_rings`.
     result : ndarray, shape (RESULTS,)
         Wrench, largest pressure and shear integral are written.
 
@@ -273,7 +269,7 @@ def solve_pressure(
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     b, w, wt = film.blocks[0], film.blocks[1], film.blocks[2]
-    shape_gap(film, bore, q, sigma)
+    shape_gap(film, bore, q, sigma, part)
     if reynolds > 0.0:
         _make_turbulent(film, reynolds)
     release(film)
@@ -292,6 +288,9 @@ def solve_pressure(
             status = OK
             break
     if status == OK:
+        film.mixed[SHARE] = 0.0
+        if bore is None and ruptures == 0:
+            film.mixed[SHARE] = turning_round(q, v, speed, film.mixed[CHANGE:])
         integrate(film, bore, ambient, result)
         result[FLOW] = side_flow(film, bore, q, v, speed, sigma)
         if reynolds > 0.0:

@@ -19,6 +19,8 @@ from bearing_fmu.stock import Stock
 
 Floats = NDArray[np.float64]
 
+LINES = 8  #: for each row
+
 
 class TiltedFilm(NamedTuple):
     """Everything prepared once for one bearing, basis and uniform circle, and work space.
@@ -34,6 +36,8 @@ class TiltedFilm(NamedTuple):
     products: Floats  #: ((n + 2) n n',) their outer products
     fine: Floats  #: (4 n, n) basis between the nodes
     ends: Floats  #: (2, n + 2) derivatives of what is 1 at an end and 0 at all other nodes
+    lines: Floats  #: (8 n, n) basis on the lines between the nodes
+    back: Floats  #: (8 n, n) what of a line's weight each row takes, over its own
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     # from here on work space
@@ -42,6 +46,8 @@ class TiltedFilm(NamedTuple):
     column: Floats  #: (FIELDS, n + 2, m') at the columns
     face: Floats  #: (FIELDS, n, m') between the columns
     nodal: Floats  #: (4, n, m') bearing part of the pressure and its derivatives
+    cuts: Floats  #: (8 n, 4, m') as `nodal`, on the lines
+    mixed: Floats  #: (13,) share of the lines, see `lines`
     pressures: Floats  #: (5, 3 n + 2, m') the pressure and four adjoint ones
     forcing: Floats  #: (6, 3 n + 2, m') tangent of the residual and what it is made of
     blocks: Floats  #: (3, m n n') factor
@@ -60,6 +66,8 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
         "column": np.zeros((FIELDS, rows + 2, length)),
         "face": np.zeros((FIELDS, rows, length)),
         "nodal": np.zeros((4, rows, length)),
+        "cuts": np.zeros((LINES * rows, 4, length)),
+        "mixed": np.zeros(13),
         "pressures": np.zeros((5, 3 * rows + 2, length)),
         "forcing": np.zeros((6, 3 * rows + 2, length)),
         "blocks": np.zeros((3, columns * rows * width)),
@@ -82,6 +90,7 @@ def tilted_film(columns: int, rows: int, aspect: float, space: dict[str, Floats]
     products[:, :, :rows] = basis.stiffness_products()
     angle = 2.0 * np.pi / columns * np.arange(2 * columns) / 2.0
     circle = np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])])
+    on_lines, back = basis.lines(LINES * rows)
     return TiltedFilm(
         nodes=basis.nodes,
         weights=basis.weights,
@@ -90,6 +99,8 @@ def tilted_film(columns: int, rows: int, aspect: float, space: dict[str, Floats]
         products=products.ravel(),
         fine=basis.interpolation(basis.place(np.linspace(-1.0, 1.0, 4 * rows + 2)[1:-1])),
         ends=end_slopes(basis),
+        lines=on_lines,
+        back=back,
         circle=circle,
         held=np.zeros((rows, padded(columns))),
         **space,

@@ -1,0 +1,101 @@
+"""States in which the usual grid or quadrature of a film does not serve, and how much of another it takes.
+
+With H = 1 - x cos(phi) - y sin(phi) the pressure is driven by ::
+
+    -(speed dH/dphi + 2 dH/dt) = u cos(phi) + w sin(phi),   (u, w) = (2 x' + speed y, 2 y' - speed x)
+
+and is positive, by and large, where this is.  The grid is graded to the narrow gap; where (u, w) points away
+from it, the journal *leaves* the wall, and what is positive lies in the wide gap.  Under tilt (u, w) changes
+over z; where it *turns round* between the ends, the positive part ends along lines of constant z.  Both
+shares go smoothly from 0 to 1 with the state, so that the wrench does, and their change is in its tangent.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.result import DAMPING, RESULTS, STIFFNESS
+
+Floats = NDArray[np.float64]
+
+#: Part of the usual grading with which a journal is followed that leaves the wall.
+SPREAD = 0.3
+# Where the shares begin and end: of the cosine between (u, w) and the way off the wall, and of the squared
+# eccentricity; of how much more of the drive is the tilt's, (tilt^2 - centre^2) / (tilt^2 + centre^2).
+_AWAY, _FAR = (0.45, 0.8), (0.25, 0.5)
+_TILTED = (0.65, 0.85)
+
+
+@inner_kernel
+def _rise(x: float, ends: tuple[float, float]) -> tuple[float, float]:
+    """Smooth step from 0 to 1 between two ends, and its derivative."""
+    s = (x - ends[0]) / (ends[1] - ends[0])
+    if s <= 0.0:
+        return 0.0, 0.0
+    if s >= 1.0:
+        return 1.0, 0.0
+    return s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / (ends[1] - ends[0])
+
+
+@inner_kernel
+def leaving(q: Floats, v: Floats, speed: float, change: Floats) -> float:
+    """How far a journal leaves the wall, 0 to 1; its change by q (4) and v (4) where it is above 0."""
+    along = 2.0 * (v[0] * q[0] + v[1] * q[1])
+    square = q[0] * q[0] + q[1] * q[1]
+    if along >= 0.0 or square <= _FAR[0]:
+        return 0.0
+    u, w = 2.0 * v[0] + speed * q[1], 2.0 * v[1] - speed * q[0]
+    drive = u * u + w * w
+    cosine = -along / np.sqrt(drive * square)
+    away, by_cosine = _rise(cosine, _AWAY)
+    far, by_square = _rise(square, _FAR)
+    if away == 0.0:
+        return 0.0
+    scale = cosine / along
+    change[:] = 0.0
+    for k in range(2):
+        turned = -speed * w if k == 0 else speed * u
+        own = 2.0 * v[k] * scale - cosine * (turned / drive + q[k] / square)
+        change[k] = by_cosine * own * far + away * by_square * 2.0 * q[k]
+        change[4 + k] = far * by_cosine * (2.0 * q[k] * scale - cosine * 2.0 * (u if k == 0 else w) / drive)
+    return away * far
+
+
+@inner_kernel
+def turning_round(q: Floats, v: Floats, speed: float, change: Floats) -> float:
+    """How far the drive turns round between the ends, 0 to 1; its change by q (4) and v (4)."""
+    u, w = 2.0 * v[0] + speed * q[1], 2.0 * v[1] - speed * q[0]
+    a, b = 2.0 * v[3] - speed * q[2], -2.0 * v[2] - speed * q[3]
+    centre, tilt = u * u + w * w, a * a + b * b
+    if tilt <= centre:
+        return 0.0
+    whole = tilt + centre
+    share, slope = _rise((tilt - centre) / whole, _TILTED)
+    if share > 0.0:
+        by_centre, by_tilt = -4.0 * slope * tilt / (whole * whole), 4.0 * slope * centre / (whole * whole)
+        change[0], change[1] = -by_centre * w * speed, by_centre * u * speed
+        change[2], change[3] = -by_tilt * a * speed, -by_tilt * b * speed
+        change[4], change[5] = 2.0 * by_centre * u, 2.0 * by_centre * w
+        change[6], change[7] = -2.0 * by_tilt * b, 2.0 * by_tilt * a
+    return share
+
+
+@inner_kernel
+def add_change(step: Floats, change: Floats, result: Floats) -> None:
+    """Add what a changing share, `change`, of a `step` of the wrench adds to its tangent."""
+    for i in range(4):
+        for k in range(4):
+            result[STIFFNESS + 4 * i + k] += step[i] * change[k]
+            result[DAMPING + 4 * i + k] += step[i] * change[4 + k]
+
+
+@inner_kernel
+def mix(usual: Floats, share: float, change: Floats, result: Floats) -> None:
+    """Keep a share of a result, with its change by q and v, and take the rest from the `usual` one."""
+    for i in range(RESULTS):
+        step = result[i] - usual[i]
+        result[i] = usual[i] + share * step
+        usual[i] = step
+    add_change(usual, change, result)
