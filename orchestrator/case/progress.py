@@ -61,10 +61,11 @@ class Pace:
         if speed <= 0:
             return f"{simulated:.3f} of {self.end:g} s"
         left = max(0.0, self.end - simulated) / speed
-        return f"{simulated:.3f} of {self.end:g} s, {speed:.3g} s a second, {_duration(left)} left"
+        return f"{simulated:.3f} of {self.end:g} s, {speed:.3g} s a second, {duration(left)} left"
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """A wall time in words."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

@@ -18,6 +18,7 @@ from orchestrator.cli import linear as cli_linear
 from orchestrator.cli import report as cli_report
 from orchestrator.cli import resume as cli_resume
 from orchestrator.cli import run as cli_run
+from orchestrator.cli import study as cli_study
 from orchestrator.cli.options import (
     guarded,
 )
@@ -37,6 +38,7 @@ cli_report.register(app)
 cli_ssp.register(app)
 cli_resume.register(app)
 cli_run.register(app)
+cli_study.register(app)
 
 
 def _version(wanted: bool) -> None:

@@ -41,12 +41,15 @@ class Part:
     parameters: Values
 
 
-def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
+def parts_in_folder(
+    scenario: Scenario, train: Train, fmus: Path, store: FmuStore, rotor: Train | None = None
+) -> Iterator[Part]:
     """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters.
 
     Where depth linear has no stiffness and damping from the train, it has those of the film of
     `Scenario.linear_from` at the static equilibrium on these films, which is found here; and so is the
-    viscosity of oils whose temperature is not given.
+    viscosity of oils whose temperature is not given. `rotor` is a train with the same shaft, whose rotor
+    serves.
 
     Raises
     ------
@@ -56,7 +59,7 @@ def parts_in_folder(scenario: Scenario, train: Train, fmus: Path, store: FmuStor
         When films that are to be linearised find none.
     """
     warm = _warm_parameters(scenario, train, fmus, store)
-    for part in _parts(scenario, train, fmus, store):
+    for part in _parts(scenario, train, fmus, store, rotor):
         yield replace(part, parameters=part.parameters | warm.get(part.name, {}))
 
 
@@ -77,9 +80,12 @@ def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuSto
     return {name: {"viscosity": viscosity} for name, viscosity in found.items()}
 
 
-def _parts(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> Iterator[Part]:
+def _parts(
+    scenario: Scenario, train: Train, fmus: Path, store: FmuStore, rotor: Train | None = None
+) -> Iterator[Part]:
     """Yield the units; viscosities of oils that find their temperature are first guesses."""
-    yield Part("rotor", _built(rotor_recipe(train), fmus, store), rotor_parameters(scenario, train))
+    rotor_file = _built(rotor_recipe(rotor or train), fmus, store)
+    yield Part("rotor", rotor_file, rotor_parameters(scenario, train))
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
     files = {
         depth: store.open(scenario.folder / depth)

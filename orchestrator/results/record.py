@@ -74,6 +74,12 @@ _SHAFT = {
 }
 
 
+def series_names() -> tuple[str, ...]:
+    """Names of the series over time at the bearings."""
+    vectors = ("force", "moment", "displacement", "tilt", "velocity", "tilt_rate")
+    return (*vectors, *_SCALARS, *(label for label, _, _ in _EXTREMES.values()))
+
+
 def make_record(
     recorder: Recorder,
     start: Start,

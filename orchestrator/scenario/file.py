@@ -103,8 +103,14 @@ def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario
         When the values do not fit.
     """
     raw = scenario.model_dump(mode="json", exclude_defaults=True)
-    nothing = TomlSource("")  # the problems have no lines
-    return _checked(nothing, replaced(raw, overrides), scenario.folder, scenario.title or "scenario")[0]
+    return check_with_train(replaced(raw, overrides), scenario.folder, scenario.title or "scenario")[0]
+
+
+def check_with_train(
+    raw: Mapping[str, Any], folder: Path, source: str, train: Train | None = None
+) -> tuple[Scenario, Train]:
+    """Check what a scenario's file may say as `load_with_train`; on `train` in place of the one named."""
+    return _checked(TomlSource(""), raw, folder, source, train)  # the problems have no lines
 
 
 def train_of(scenario: Scenario) -> Train:
@@ -146,7 +152,11 @@ def scenario_toml(scenario: Scenario) -> str:
 
 
 def _checked(
-    toml: TomlSource, overrides: Mapping[str, Any], folder: Path, source: str
+    toml: TomlSource,
+    overrides: Mapping[str, Any],
+    folder: Path,
+    source: str,
+    given: Train | None = None,
 ) -> tuple[Scenario, Train]:
     """Return scenario and train of a file with overrides in place of its values, or raise all problems."""
     raw = replaced(toml.raw, overrides)
@@ -157,14 +167,14 @@ def _checked(
         raw["events"] = [alone]
     elif alone is not None:
         problems.append((("event",), "event: given beside events; allowed is one of them"))
-    scenario = train = None
+    scenario, train = None, given
     try:
         if "folder" in raw:
             problems.append((("folder",), "folder: unknown key"))
         scenario = Scenario.model_validate({**raw, "folder": folder})
     except ValidationError as error:
         problems += shape_problems(error)
-    if isinstance(raw.get("train"), str):
+    if given is None and isinstance(raw.get("train"), str):
         try:
             train = load_train(_train_path(raw["train"], folder))
         except TrainFileError as error:
@@ -213,6 +223,11 @@ def _holds(overrides: Mapping[str, Any], location: Location) -> bool:
             return False
         value = value[step]
     return True
+
+
+def train_source(scenario: Scenario) -> str | Path:
+    """The name of a scenario's train, or where it lies."""
+    return _train_path(scenario.train, scenario.folder)
 
 
 def _train_path(train: str, folder: Path) -> str | Path:

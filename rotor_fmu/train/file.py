@@ -43,7 +43,7 @@ from rotor_fmu.train.toml_source import Problem, TomlError, TomlSource, read_tom
 from rotor_fmu.train.train import BearingSeat, Coupling, LumpedMass, Material, Shoulder, Train, Wheel
 from rotor_fmu.train.wording import choice, explain
 
-__all__ = ["DATA", "POSITION_TOLERANCE", "TrainFileError", "bundled_trains", "load_train"]
+__all__ = ["DATA", "POSITION_TOLERANCE", "TrainFileError", "bundled_trains", "load_train", "train_file"]
 
 DATA = Path(__file__).parents[1] / "data"
 _MODELS: dict[str, type[Placed]] = {
@@ -69,13 +69,15 @@ def bundled_trains() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in DATA.glob("*/train.toml")))
 
 
-def load_train(name_or_path: str | Path) -> Train:
+def load_train(name_or_path: str | Path, raw: Mapping[str, Any] | None = None) -> Train:
     """Read a train.
 
     Parameters
     ----------
     name_or_path : str or Path
         A bundled train's name, or a folder with ``train.toml``, or that file.
+    raw : mapping, optional
+        In place of what the file says; then problems have no lines.
 
     Returns
     -------
@@ -87,13 +89,16 @@ def load_train(name_or_path: str | Path) -> Train:
     TrainFileError
         With every problem found: file, line or row, key, value, and what is allowed.
     """
-    path = _path_of(name_or_path)
+    path = train_file(name_or_path)
     problems: list[str] = []
     try:
         source = read_toml(path)
     except TomlError as error:
         problems.append(f"{path}: {error}")
         source = TomlSource("")
+    if raw is not None:
+        source = TomlSource("")
+        source.raw = dict(raw)
     shaft_file = source.raw.get("shaft")
     table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
     in_table: list[str] = []
@@ -105,14 +110,16 @@ def load_train(name_or_path: str | Path) -> Train:
         if train is not None and not found:
             train, found = with_foundation(train, source.raw.get("foundation"), path.parent)
         in_table += unknown_materials(rows, source.raw.get("materials"))
-    problems += (f"{path}: {text}" for text in source.located(found))
+    located = source.located(found) if raw is None else (text for _, text in found)
+    problems += (f"{path}: {text}" for text in located)
     problems += (f"{table}: {text}" for text in in_table)
     if train is None or problems:
         raise TrainFileError(problems)
     return train
 
 
-def _path_of(name_or_path: str | Path) -> Path:
+def train_file(name_or_path: str | Path) -> Path:
+    """The file of a train, given as for `load_train`; raises TrainFileError where there is none."""
     if str(name_or_path) in bundled_trains():
         return DATA / str(name_or_path) / "train.toml"
     path = Path(name_or_path)

@@ -8,6 +8,7 @@ the input is raised as `Error` with the words of the command line, a run that do
 from bladeloss.machines import bearing, modes, train
 from bladeloss.results import conclusion, load, report, verdicts
 from bladeloss.runs import RunError, run, scenario
+from bladeloss.studies import study
 from orchestrator.errors import OrchestratorError as Error
 from orchestrator.results.signals.envelope import envelope
 from orchestrator.results.signals.orders import (
@@ -37,6 +38,7 @@ __all__ = [
     "running_peak_to_peak",
     "scenario",
     "spectrum",
+    "study",
     "train",
     "verdicts",
     "waterfall",

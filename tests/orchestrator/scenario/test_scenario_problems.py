@@ -162,7 +162,7 @@ def test_a_record_larger_than_the_machine(tmp_path, monkeypatch):
     "input",
     "a train that does not exist",
     "exit 2; line, the likely name, all bundled trains",
-    guard="rotor_fmu.train.file:_path_of",
+    guard="rotor_fmu.train.file:train_file",
 )
 def test_a_train_that_does_not_exist(tmp_path):
     words = r"^my.toml: line 1: train = 'smal': .*smal: no such train; did you mean 'small'\? allowed are"

@@ -1,0 +1,1 @@
+"""Results of an ensemble of runs: its figures, what follows from them, its files."""

@@ -1,0 +1,1 @@
+"""Studies: many runs of one scenario, over samples of its parameters."""
