@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master.coupling import Advance, Coupling, NotConverged
+from orchestrator.master.jumps import Jumps
 from orchestrator.master.step_error import error_of_step
 from orchestrator.master.system import System
 from orchestrator.outcome import Outcome
@@ -63,6 +64,8 @@ class StepCounts:
         unit did not accept them.
     iterations : int
         Passes through the units in all accepted steps.
+    jumps : int
+        Accepted steps whose error is above the tolerance since the law of a bearing jumps.
     shortest : float
         Shortest accepted step in s.
     largest_relative_defect, largest_relative_error : float
@@ -73,6 +76,7 @@ class StepCounts:
     rejected: int = 0
     discarded: int = 0
     iterations: int = 0
+    jumps: int = 0
     shortest: float = math.inf
     largest_relative_defect: float = 0.0
     largest_relative_error: float = 0.0
@@ -89,6 +93,7 @@ class StepCounts:
             "rejected_steps": self.rejected,
             "discarded_steps": self.discarded,
             "iterations": self.iterations,
+            "jumps": self.jumps,
             "evaluations": evaluations,
             "shortest_step": self.shortest if self.accepted else 0.0,
             "largest_relative_defect": self.largest_relative_defect,
@@ -118,6 +123,9 @@ class NotFinite(StepFailure):
 
 class Stepper:
     """Carries a system over intervals.
+
+    A step whose error no halving makes less is accepted and counted as a jump, see
+    `orchestrator.master.jumps`; behind it steps grow again to that with which the jump was met.
 
     Parameters
     ----------
@@ -155,6 +163,7 @@ class Stepper:
         self._system, self.scheme, self._on_step = system, scheme, on_step
         self._tolerance = tolerance
         self._before = system.motion.copy()
+        self._jumps = Jumps()
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
         self.level, self._deepest = level, level + DEEPEST
@@ -176,11 +185,13 @@ class Stepper:
             )
             done += verdict is not Verdict.TAKEN_BACK
             if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < self._deepest:
-                self.level += 1
-                done *= 2
-            elif verdict is Verdict.EASY and self.level and done % 2 == 0:
-                self.level -= 1
-                done //= 2
+                self.level, done = self.level + 1, 2 * done
+                self._jumps.taken_back()
+                continue
+            easy = verdict is Verdict.EASY
+            while self.level and done % 2 == 0 and (easy or self.level > self._jumps.behind):
+                self.level, done, easy = self.level - 1, done // 2, False
+            self._jumps.grown(self.level)
 
     def _attempt(self, time: float, end: float, step: float, last: bool) -> Verdict:
         """Take a step, the `last` of its interval or not."""
@@ -191,6 +202,8 @@ class Stepper:
             advance = self._advance(time, step, last)
             sizes = self._sizes(advance)
             problem = self._problem(advance, sizes, step)
+            if isinstance(problem, ToleranceMissed) and self._jumps.found(max(sizes), self.level, end):
+                self.counts.jumps, problem = self.counts.jumps + 1, None
         except NotConverged as error:
             problem = ToleranceMissed(f"{error}, with a step of {step:.3g} s")
         except UnitError as error:
@@ -209,6 +222,7 @@ class Stepper:
             if self.level == self._deepest or (self._tolerance is None and not self.scheme.iterates):
                 raise problem
             return Verdict.TAKEN_BACK
+        self._jumps.passed(end)
         self._count(advance, step, sizes)
         self._on_step(time, end, advance)
         if problem is not None:

@@ -81,6 +81,8 @@ def _steps_text(summary: RunSummary) -> str:
         text += f", {counts.discarded} discarded by a unit" if counts.discarded else ""
     if counts.iterations > counts.accepted:
         text += f", {counts.iterations / counts.accepted:.2f} iterations a step"
+    if counts.jumps:
+        text += f", {counts.jumps} of them over a jump of a force, which no shorter step meets"
     return text
 
 

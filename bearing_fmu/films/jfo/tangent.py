@@ -5,6 +5,11 @@ With the balance R(u, q, v) = 0 of the cells, u the pressure of full ones and th
     dF = dF/dp du + dF|p,   R_u du = -(R_q dq + R_v dv)
 
 The factor of R_u is that of the last round, the eight right-hand sides are solved at once.
+
+What a cell had goes with the faces, from where they stood to where they stand now: the volume over dt that
+this brings is a flow, in proportion to the velocity with which they move.  So its change counts as one with
+v, at q - q_then = dt v, and stands in the damping.  As stiffness it would be of the size 1/dt, and a law
+that is used in the next step, which begins where this one ended, would count the motion of this one twice.
 """
 
 from __future__ import annotations
@@ -23,7 +28,7 @@ from bearing_fmu.result import DAMPING, OPEN, OPEN_1, OPEN_2, POWER, STIFFNESS
 
 Floats = NDArray[np.float64]
 
-_STORED, _AROUND, _AXIAL = 0, 1, 2
+_STORED, _AROUND, _AXIAL, _BROUGHT = range(4)
 
 
 @inner_kernel
@@ -73,7 +78,7 @@ def _axial_changes(jfo: JfoFilm, bore: Bore, q: Floats, k: int) -> None:
 
 @stage
 def _stored_changes(jfo: JfoFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
-    """Change of what the cells store with q_k."""
+    """Change of what the cells store with q_k, and of what their faces bring with v_k."""
     film, net = jfo.film, jfo.net
     n, m = jfo.volumes.shape
     cell, rate = 2.0 * np.pi / m, jfo.time[RATE]
@@ -84,7 +89,8 @@ def _stored_changes(jfo: JfoFilm, bore: Bore, q: Floats, v: Floats, k: int) -> N
     faces = film.rings[1, MOTION + k]
     for j in range(n):
         _change(jfo, bore, q, k, 0, film.nodes[j], change)
-        t1, t2, out = film.column[OPEN_1, j], film.column[OPEN_2, j], jfo.changes[_STORED, j]
+        t1, t2 = film.column[OPEN_1, j], film.column[OPEN_2, j]
+        out, brought = jfo.changes[_STORED, j], jfo.changes[_BROUGHT, j]
         ux, uy = v[0] + v[3] * film.nodes[j], v[1] - v[2] * film.nodes[j]
         for i in range(m):
             back = i - 1 if i > 0 else m - 1
@@ -101,27 +107,31 @@ def _stored_changes(jfo: JfoFilm, bore: Bore, q: Floats, v: Floats, k: int) -> N
             turned = (ux * sin[i] - uy * cos[i]) * motion[i]
             dopens = opens * stretching[i] + area * (t2[i] * change[i] * opening + t1[i] * turned)
             dstored = jfo.volumes[j, i] * stretching[i] + area * t1[i] * change[i]
-            weight = rate * jfo.volumes[j, i] + 2.0 * max(-opens, 0.0)
-            out[i] = rate * dstored * gone + 2.0 * share * dopens - weight * dhad - owing * dowed
+            closing = 2.0 * max(-opens, 0.0)
+            out[i] = rate * dstored * gone + 2.0 * share * dopens - closing * dhad - owing * dowed
+            brought[i] = 2.0 * jfo.volumes[j, i] * dhad
 
 
 @stage
 def _sides_by_position(jfo: JfoFilm, k: int) -> None:
-    """Right-hand side of q_k."""
+    """Right-hand side of q_k, and what moving faces bring in that of v_k."""
     n, m = jfo.volumes.shape
     width = jfo.net.lower.shape[0] // m
     for j in range(n):
         stored, around = jfo.changes[_STORED, j], jfo.changes[_AROUND, j]
         below, above = jfo.changes[_AXIAL, j], jfo.changes[_AXIAL, j + 1]
+        brought = jfo.changes[_BROUGHT, j]
         for i in range(m):
             back = i - 1 if i > 0 else m - 1
             side = -(stored[i] + around[i] - around[back] + above[i] - below[i])
-            jfo.net.sides[(i * SIDES + k) * width + j] = side if jfo.net.held[j, i] == FREE else 0.0
+            free = jfo.net.held[j, i] == FREE
+            jfo.net.sides[(i * SIDES + k) * width + j] = side if free else 0.0
+            jfo.net.sides[(i * SIDES + 4 + k) * width + j] = brought[i] if free else 0.0
 
 
 @stage
 def _sides_by_velocity(jfo: JfoFilm) -> None:
-    """Right-hand sides of the velocities, which squeeze only."""
+    """Add to the right-hand sides of the velocities what squeezes."""
     film, net = jfo.film, jfo.net
     n, m = jfo.volumes.shape
     width, cell = net.lower.shape[0] // m, 2.0 * np.pi / m
@@ -133,10 +143,10 @@ def _sides_by_velocity(jfo: JfoFilm) -> None:
             push = 2.0 * film.weights[j] * cell * metric[i] * t1[i] * jfo.share[j, i]
             if net.held[j, i] != FREE:
                 push = 0.0
-            net.sides[at] = push * cos[i]
-            net.sides[at + width] = push * sin[i]
-            net.sides[at + 2 * width] = -push * z * sin[i]
-            net.sides[at + 3 * width] = push * z * cos[i]
+            net.sides[at] += push * cos[i]
+            net.sides[at + width] += push * sin[i]
+            net.sides[at + 2 * width] -= push * z * sin[i]
+            net.sides[at + 3 * width] += push * z * cos[i]
 
 
 @inner_kernel

@@ -47,7 +47,7 @@ class JfoFilm(NamedTuple):
     now: Floats  #: (FACES + (1 + KEPT n) m,) what is remembered after it
     supply: Floats  #: (2,) content of the grooves; flow into them where that is given, else 0
     flows: Floats  #: (3,) result: see `ENDS`
-    changes: Floats  #: (3, n + 1, m') work space of the tangent
+    changes: Floats  #: (4, n + 1, m') work space of the tangent
 
 
 def axial_faces(rows: int) -> tuple[Floats, Floats]:
@@ -87,7 +87,7 @@ def work_space(columns: int, rows: int) -> dict[str, Any]:
         "then": np.zeros(FACES + (1 + KEPT * n) * m),
         "now": np.zeros(FACES + (1 + KEPT * n) * m),
         "flows": np.zeros(3),
-        "changes": np.zeros((3, n + 1, length)),
+        "changes": np.zeros((4, n + 1, length)),
     }
 
 

@@ -77,6 +77,23 @@ def test_where_the_law_is_exact_the_length_of_the_step_still_counts(store, toy_f
     assert error[0] > 2.0 * error[1] > 4.0 * error[2]
 
 
+@pytest.mark.parametrize("share", [0.1, 0.3])
+def test_a_jump_of_the_force_is_stepped_over_and_counted(store, toy_fmus, share):
+    """Halving finds its instant only; a jump too large for a result is still an end by name."""
+    system = released(store, toy_fmus, jump=share * LOAD, **CUBIC)
+    if share > 0.2:
+        with pytest.raises(ToleranceMissed, match=r"allowed is 0\.02"):
+            carry(system, LinearImplicit(), 0.02)
+    else:
+        (times, x), stepper = carry(system, LinearImplicit(), 0.02)
+        crossings = np.count_nonzero(np.diff(x > 0.0))
+        assert 1 <= stepper.counts.jumps <= crossings
+        assert stepper.counts.largest_relative_error == pytest.approx(share, rel=0.2)
+        behind = np.flatnonzero(np.diff(times) < STEP / 3)
+        assert len(behind) < 0.3 * len(times)  # steps grow again
+    system.close()
+
+
 def test_a_step_taken_back_leaves_no_trace(store, toy_fmus):
     """The accepted steps alone, on fresh units, give the same motion to the bit."""
     system = released(store, toy_fmus, **CUBIC)

@@ -1,5 +1,7 @@
 """A bearing of the port: F = -k q - c v - k3 |q|^2 q on each translation, k and c also on the tilts.
 
+Its force in x jumps by `spring.jump` where the journal goes over x = 0.
+
 It refuses a step that takes the journal farther than the clearance.
 """
 
@@ -12,6 +14,7 @@ _OWN = (
     port.Variable("spring.stiffness", "parameter", start=2e7),
     port.Variable("spring.damping", "parameter", start=2e4),
     port.Variable("spring.cubic", "parameter", start=0.0),
+    port.Variable("spring.jump", "parameter", start=0.0),
     port.Variable("refuse_after", "parameter", "s", start=1e9),
     port.Variable("refuse_from", "parameter", "s", start=1e9),
     port.Variable("refuse_to", "parameter", "s", start=1e9),
@@ -31,6 +34,7 @@ class SpringDamper(PortUnit):
         k, c, k3 = p["spring.stiffness"], p["spring.damping"], p["spring.cubic"]
         r = np.array([q[0], q[1], 0.0, 0.0])
         force = -k * q - c * v - k3 * (r @ r) * r
+        force[0] -= p["spring.jump"] * (q[0] > 0.0)
         stiffness = k * np.eye(4) + k3 * ((r @ r) * np.diag([1.0, 1.0, 0.0, 0.0]) + 2.0 * np.outer(r, r))
         damping = c * np.eye(4)
         absolute = np.array(self.read(port.JOURNAL[:4]))
