@@ -44,7 +44,7 @@ class RotorSlave(UnitSlave):
         bearings = len(self._train.bearings)
         last = 1 + bearings * _LAW
         law = self.inputs[1:last].reshape(bearings, _LAW)
-        self._states_of_drive, self._friction = self.inputs[last : last + 2], self.inputs[last + 2 :]
+        self._states_of_drive, self._friction = self.inputs[last : last + 3], self.inputs[last + 3 :]
         self._law = (
             law[:, :4],
             law[:, 4:20].reshape(bearings, 4, 4),
@@ -120,7 +120,7 @@ class RotorSlave(UnitSlave):
 
     def _braking(self) -> tuple[bool, Braking]:
         """Whether torques decide the speed, and what acts on the rotation now."""
-        released, broken = map(bool, self._states_of_drive >= 0.5)
+        released, broken = map(bool, self._states_of_drive[:2] >= 0.5)
         friction = float(self._friction.sum())
         now = self._drive.braking(self._rotor.speed, friction, released=released, broken=broken)
         return self._drive.is_free(released), now
@@ -146,6 +146,7 @@ class RotorSlave(UnitSlave):
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
         free, now = self._braking()
+        self._rotor.unbalance.lose(int(self._states_of_drive[2]))
         if free:
             self._rotor.freely(time, step, *self._law, now)
         else:

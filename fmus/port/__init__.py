@@ -27,6 +27,7 @@ from fmus.port.bearing import (
     BEARING_KEYS,
     BEARING_OUTPUTS,
     BEARING_PARAMETERS,
+    CHANGEABLE,
     bearing_parameter,
     default_of,
     default_word,
@@ -47,7 +48,7 @@ from fmus.port.connector import (
     C,
     K,
 )
-from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, RELEASED, ROTATION, TORQUE, VACUUM_BROKEN
+from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, LOST, RELEASED, ROTATION, TORQUE, VACUUM_BROKEN
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.linear_bearing import (
     DAMPING,
@@ -71,6 +72,7 @@ __all__ = [
     "BEARING_KEYS",
     "BEARING_OUTPUTS",
     "BEARING_PARAMETERS",
+    "CHANGEABLE",
     "COURSE",
     "DAMPING",
     "ENERGY",
@@ -86,6 +88,7 @@ __all__ = [
     "LAW",
     "LINEAR_PARAMETERS",
     "LOSSES",
+    "LOST",
     "NOMINAL_SPEED",
     "POSITION",
     "RELEASED",

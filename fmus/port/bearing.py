@@ -35,7 +35,17 @@ _ON_STATE = tuple(v.name for v in BEARING_INPUTS)
 
 _OFFSET_TEXT = "bearing centre in the fixed frame: "
 
-BEARING_PARAMETERS: tuple[Variable, ...] = (
+CHANGEABLE: dict[str, str] = {
+    "viscosity": "viscosity",
+    "ambient_pressure": "ambient_pressure",
+    "feed_pressure": "feed_pressure",
+    "friction": "contact.friction",
+    **{f"offset.{name}": f"offset.{name}" for name in POSITION},
+}
+"""Parameters that may change while a bearing runs, by the words of an event: the oil, its supply, the
+surfaces, and where the bearing stands; the rest is what it was made as."""
+
+_PARAMETERS: tuple[Variable, ...] = (
     *(
         Variable(name, "parameter", unit, text, start, minimum=minimum, nominal=nominal, above=above)
         for name, unit, text, start, minimum, nominal, above in (
@@ -165,6 +175,8 @@ BEARING_PARAMETERS: tuple[Variable, ...] = (
         )
     ),
 )
+
+BEARING_PARAMETERS = tuple(replace(v, tunable=v.name in CHANGEABLE.values()) for v in _PARAMETERS)
 
 _AT_START = _ON_STATE + tuple(v.name for v in BEARING_PARAMETERS)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fmus.port.connector import NOMINAL_SPEED
 from fmus.port.variable import Variable
 
-RELEASED, VACUUM_BROKEN = "drive.released", "drive.vacuum_broken"
+RELEASED, VACUUM_BROKEN, LOST = "drive.released", "drive.vacuum_broken", "losses.come"
 FRICTION_POWER = "friction_power"
 """Of a bearing; of the rotor the input ``bearing[i].friction_power``."""
 ROTATION = "rotation.speed"
@@ -14,6 +14,9 @@ COURSE, LOSSES, TORQUE = "speed.course", "losses", "drive.torque"
 DRIVE_INPUTS = (
     Variable(RELEASED, "input", "", "from 0.5 on nothing drives the rotor: it slows down by itself", 0.0),
     Variable(VACUUM_BROKEN, "input", "", "from 0.5 on drive.windage_broken counts", 0.0),
+    Variable(
+        LOST, "input", "", "sum of 2^k of those losses without an instant that have come, k from 0", 0.0
+    ),
 )
 ROTATION_OUTPUT = Variable(
     ROTATION,
@@ -36,7 +39,7 @@ DRIVE_PARAMETERS = (
         LOSSES,
         "parameter",
         "",
-        "more lost blades as [[s, number of the wheel, kg m, rad], ...]",
+        "more lost blades as [[s, number of the wheel, kg m, rad], ...]; null for s: by losses.come",
         "",
         kind="String",
     ),

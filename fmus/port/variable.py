@@ -35,6 +35,8 @@ class Variable:
         Whether the minimum itself is excluded.
     choices : tuple of str
         Words that a String may be; empty: any.
+    tunable : bool
+        Whether a parameter may change between two steps.
     depends_on : tuple of str
         Names of the inputs an output depends on directly.
     starts_on : tuple of str or None
@@ -61,12 +63,13 @@ class Variable:
     maximum: float | None = None
     above: bool = False
     choices: tuple[str, ...] = ()
+    tunable: bool = False
 
     @property
     def variability(self) -> Variability:
         """FMI variability that follows from causality and type."""
         if self.causality in ("parameter", "calculatedParameter"):
-            return "fixed"
+            return "tunable" if self.tunable else "fixed"
         return "continuous" if self.kind == "Real" else "discrete"
 
     @property

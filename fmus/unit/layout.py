@@ -42,6 +42,7 @@ class Layout:
     starts: list[float] = field(init=False, repr=False)
     strings: dict[int, str] = field(init=False, repr=False)
     settable: dict[Kind, frozenset[int]] = field(init=False, repr=False)
+    tunable: frozenset[int] = field(init=False, repr=False)
     computed: frozenset[int] = field(init=False, repr=False)
     lazy: dict[str, frozenset[int]] = field(init=False, repr=False)
     lazy_span: dict[str, tuple[int, int]] = field(init=False, repr=False)
@@ -70,6 +71,7 @@ class Layout:
             "settable",
             {k: frozenset(i for i, v in numbered if v.kind == k and v.causality in free) for k in kinds},
         )
+        set_field(self, "tunable", frozenset(i for i, v in numbered if v.tunable))
         set_field(self, "computed", frozenset(i for i, c in enumerate(causality) if c not in free))
         groups = sorted({v.lazy for v in self.variables if v.lazy})
         set_field(self, "lazy", {g: frozenset(i for i, v in numbered if v.lazy == g) for g in groups})
@@ -79,7 +81,7 @@ class Layout:
             raise ValueError(f"port: the output {FAILURE.name} is missing")
         eager = (i for i, v in numbered if v.causality == "output" and v.kind == "Real" and not v.lazy)
         set_field(self, "outputs", _block(self.variables, eager, "outputs"))
-        fixed = (i for i, v in numbered if v.variability == "fixed")
+        fixed = (i for i, v in numbered if v.variability in ("fixed", "tunable"))
         set_field(self, "parameters", _block(self.variables, fixed, "parameters"))
 
     def __getitem__(self, name: str) -> int:

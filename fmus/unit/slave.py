@@ -64,6 +64,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
         self._unsolved = True  # something was set since `start` last ran
         self._stale = set(layout.lazy)  # groups that do not belong to the present state
+        self._tuned = False  # a parameter was changed since the last step
         self._failure = ""  # of the start
         self._misuse = ""  # a call that FMI forbids
 
@@ -117,7 +118,17 @@ class UnitSlave(Hooks, Fmi2Slave):
         if not (0.0 < step < math.inf and math.isfinite(time)):
             raise UnitError("the step must be positive and finite", Failure.CALL)
         self._values.check_inputs(len(self.inputs))
+        if self._tuned:
+            self._retune()
         self.advance(time, step)
+
+    def _retune(self) -> None:
+        """Make the model of the parameters as they are now, in the state in which it stands."""
+        model = self.model_state()
+        self._prepare_if_changed()
+        if model is not None:
+            self.restore_model(model)
+        self._tuned = False
 
     def _solve(self) -> None:
         """Prepare and start where something was set since; the reason of a failure is kept."""
@@ -174,7 +185,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         return [self.strings.get(i, "") for i in vrs]
 
     def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
-        """Set inputs, and parameters before the end of initialization."""
+        """Set inputs, and parameters before the end of initialization, behind it those that are tunable."""
         self._write("Real", vrs, values)
 
     def set_integer(self, vrs: list[int], values: Sequence[int]) -> None:
@@ -200,6 +211,8 @@ class UnitSlave(Hooks, Fmi2Slave):
         if self._mode == STEP:
             end = max(vrs, default=-1) + 1 if block is None else block.stop
             allowed = kind == "Real" and end <= self.layout.inputs.stop
+            if not allowed and kind == "Real" and self.layout.tunable.issuperset(vrs):
+                allowed = self._tuned = True
         else:
             allowed = self.layout.settable[kind].issuperset(vrs)
             self._unsolved = True

@@ -6,7 +6,7 @@ import math
 
 from orchestrator.master.coupling import SCHEMES, Multirate
 from orchestrator.master.time_loop import Course
-from orchestrator.scenario.events import Switch
+from orchestrator.scenario.events import Change, Switch
 from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of
 from rotor_fmu.train.train import Train
@@ -32,6 +32,6 @@ def course_of(scenario: Scenario, train: Train) -> tuple[Course, int]:
         step, stride, level = whole * step, stride // whole, math.ceil(math.log2(whole))
         tolerance = Multirate.tolerance if tolerance is None else tolerance
     controlled = tolerance is not None or scheme.iterates
-    switches = sorted({event.time for event in schedule.events if isinstance(event, Switch)})
+    switches = sorted({event.time for event in schedule.events if isinstance(event, (Switch, Change))})
     events = schedule.instants if controlled else tuple(switches)
     return Course(scenario.end, step, tolerance, events, level), stride

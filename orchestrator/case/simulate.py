@@ -35,7 +35,7 @@ from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
 from orchestrator.results.least_damped import least_damped_attributes
 from orchestrator.results.ledger import with_ledger
-from orchestrator.results.record import empty_record, make_record, outcome_attributes
+from orchestrator.results.record import empty_record, loss_attributes, make_record, outcome_attributes
 from orchestrator.results.result import Result, Stopwatch, Timing
 from orchestrator.results.validity import judge
 from orchestrator.scenario.file import train_of
@@ -257,5 +257,5 @@ class _TimeLoop:
         if case.scenario.turns:
             happened = self._happenings.happened
             ran = turned(self._schedule, recorder.times, recorder.speeds, happened)
-            record = record.assign_attrs(ran.attributes())
+            record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

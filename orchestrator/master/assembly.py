@@ -20,6 +20,7 @@ from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.start.equilibrium import find_start
 from orchestrator.master.start.heat import effective_viscosities
 from orchestrator.master.system import System
+from orchestrator.scenario.events import Change
 from orchestrator.scenario.parameters import (
     Values,
     bearing_parameters,
@@ -186,6 +187,9 @@ def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, t
         system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring, turning=scenario.turns)
         system.bearing_group.employ(threads)
         halved = scenario.tolerance is not None or SCHEMES[scenario.coupling].many_rates
+        for event in scenario.events:
+            if isinstance(event, Change):
+                _check_change(event, next(unit for unit in units if unit.name == event.bearing))
         for unit, values in zip(units, parameters, strict=True):
             unit.file.check_steps(scenario.step, scenario.end, halved)
             unit.set_parameters(values)
@@ -199,3 +203,13 @@ def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, t
             raise FmuError(f"{place}: {error}") from None
         raise
     return system
+
+
+def _check_change(event: Change, unit: Unit) -> None:
+    """Raise FmuError where a unit does not take a parameter while it runs."""
+    variable = unit.file.variables.get(event.variable)
+    if variable is None or variable.variability != "tunable":
+        what = "has none" if variable is None else f"is {variable.variability}, allowed is tunable"
+        raise FmuError(
+            f"{unit.file.path}: {event.variable}, that an event changes at {event.bearing}: {what}"
+        )

@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmus import port
-from orchestrator.errors import PortError
 from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph, Group
-from orchestrator.master.port_check import differences
+from orchestrator.master.port_check import SWITCHES, check_port
 from orchestrator.master.rollback import Rollback
 
 Array = NDArray[np.float64]
@@ -24,7 +23,6 @@ RESPONSE = {v.name: index for index, v in enumerate(port.BEARING_OUTPUTS)}
 
 _BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
 _BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
-_OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
 _TANGENT = slice(RESPONSE[port.K[0]], RESPONSE[port.C[-1]] + 1)
 _FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
 _LAW = slice(RESPONSE[port.LAW[0]], RESPONSE[port.LAW[-1]] + 1)
@@ -89,7 +87,7 @@ class System:
         moving = port.at_bearing(1, port.HOUSING[0]) in rotor.file.variables
         if turning:
             friction = (port.at_bearing(i, port.FRICTION_POWER) for i in range(1, n + 1))
-            rotor_inputs += (port.RELEASED, port.VACUUM_BROKEN, *friction)
+            rotor_inputs += (*SWITCHES, *friction)
         rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
         if moving:
             rotor_outputs += tuple(_at_bearings(n, port.HOUSING))
@@ -107,7 +105,8 @@ class System:
         if moving:
             self.housings = outputs[n * _PER_JOURNAL : 2 * n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
         self.responses: Array = outputs[len(rotor_outputs) :].reshape(n, len(_BEARING_OUTPUTS))
-        self.laws: Array = inputs[1 : 1 + n * _PER_LAW].reshape(n, _PER_LAW)
+        turned = slice(1 + n * _PER_LAW, len(rotor_inputs))
+        self.laws: Array = inputs[1 : turned.start].reshape(n, _PER_LAW)
         self._rotor_speed = inputs[:1]
         self._speed_now = outputs[len(rotor_outputs) - 1 : len(rotor_outputs)] if turning else inputs[:1]
         self._input_at = {name: index for index, name in enumerate(rotor_inputs)}
@@ -118,6 +117,8 @@ class System:
         self.rollback = Rollback(self.units, self.graph)
         self._all_laws = Block(rotor, [*_at_bearings(n, port.LAW)], self.laws.reshape(-1))
         self._law_blocks = [Block(rotor, _at_bearing(i, port.LAW), law) for i, law in enumerate(self.laws, 1)]
+        self._friction = inputs[turned][len(SWITCHES) :]
+        self._turning = Block(rotor, rotor_inputs[turned], inputs[turned])
         self._defect = np.empty((n, 4))
         self._reaction = np.empty((n, 2, 4, 1))
         self._loads, self._levers = np.ones(n), np.ones(n)
@@ -186,9 +187,9 @@ class System:
         """Speed of the rotor now in rad/s."""
         return float(self._speed_now[0])
 
-    def switch(self, name: str) -> None:
-        """Set an input of a turning rotor, `port.RELEASED` or `port.VACUUM_BROKEN`, to 1 from now on."""
-        self.graph.inputs[self._input_at[name]] = 1.0
+    def switch(self, name: str, by: float = 1.0) -> None:
+        """Add to an input of a turning rotor, one of `SWITCHES`, from now on."""
+        self.graph.inputs[self._input_at[name]] += by
 
     def set_speed(self, speed: float) -> None:
         """Set the rotor speed in rad/s; the units have it from the next `Group.push` on."""
@@ -200,7 +201,7 @@ class System:
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
 
     def give_laws(self) -> None:
-        """Give the rotor the newest laws, over FMI only those that it does not have."""
+        """Give the rotor the newest laws, over FMI only those that it does not have, and what turns it."""
         start = perf_counter()
         newest = self.responses[:, _LAW]
         changed = np.flatnonzero((newest != self.laws).any(axis=1))
@@ -210,6 +211,9 @@ class System:
         else:
             for k in changed:
                 self._law_blocks[k].set()
+        if self.turning:
+            self._friction[:] = self.responses[:, RESPONSE[port.FRICTION_POWER]]
+            self._turning.set()
         self.rotor_group.exchange_time += perf_counter() - start
 
     def moved(self) -> Array:
@@ -259,30 +263,6 @@ def port_connections(
             yield Connection(rotor, port.ROTATION, bearing, port.SPEED)
             power = port.at_bearing(index, port.FRICTION_POWER)
             yield Connection(bearing, port.FRICTION_POWER, rotor, power)
-
-
-def check_port(rotor: Unit, bearings: Sequence[Unit], *, turning: bool = False) -> None:
-    """Compare the units with the port.
-
-    Raises
-    ------
-    PortError
-        One line for each variable that is missing or differs in causality or unit.
-    """
-    by_name = {v.name: v for v in port.rotor([b.name for b in bearings], (), 0)}
-    needed = (port.SPEED, *_at_bearings(len(bearings), (*port.LAW, *port.JOURNAL)))
-    needed += (port.RELEASED, port.VACUUM_BROKEN, port.ROTATION) if turning else ()
-    problems = list(differences(rotor, (by_name[name] for name in needed)))
-    seen = set()
-    for bearing in bearings:
-        if bearing.file not in seen:
-            seen.add(bearing.file)
-            problems += differences(bearing, (*port.BEARING_INPUTS, *port.BEARING_OUTPUTS, *_OFFSETS))
-    surplus = port.at_bearing(len(bearings) + 1, port.JOURNAL[0])
-    if surplus in rotor.file.variables:
-        problems.append(f"{rotor.file.path}: has more than the {len(bearings)} bearings of the train")
-    if problems:
-        raise PortError("\n".join(problems))
 
 
 def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Switches what an event switches, when its instant comes or its condition has held long enough."""
+"""Brings about what an event does, when its instant comes or its condition has held long enough."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmus import port
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
-from orchestrator.scenario.events import Event, Switch
+from orchestrator.scenario.events import BladeLoss, Change, Conditional, Event, Switch
 
 Array = NDArray[np.float64]
 
@@ -29,28 +30,34 @@ class Happenings(Observer):
     system : System
         Watched after each of its steps.
     events : sequence of Event
-        Of the scenario; those that are no switches happen inside the rotor.
+        Of the scenario; blades lost at an instant are lost inside the rotor.
     static : ndarray (bearings, 4)
         Journals at the start, from which vibrations count.
     """
 
     def __init__(self, system: System, events: Sequence[Event], static: Array) -> None:
         self._system, self._static = system, static
-        self._switches = [event for event in events if isinstance(event, Switch)]
-        self._happened = np.full(len(self._switches), np.nan)
-        self._since = np.full(len(self._switches), np.nan)
+        self._events = [e for e in events if isinstance(e, Conditional) and not _is_of_the_rotor(e)]
+        losses = [index for index, event in enumerate(self._events) if isinstance(event, BladeLoss)]
+        self._numbers = {index: k for k, index in enumerate(losses)}
+        self._names = [bearing.name for bearing in system.bearings] if self._events else []
+        self._happened = np.full(len(self._events), np.nan)
+        self._since = np.full(len(self._events), np.nan)
         """From when on the condition of each has held."""
-        self._last = np.full(len(self._switches), -math.inf)
+        self._last = np.full(len(self._events), -math.inf)
         """When it was last seen to hold."""
+        self._first = math.nan
+        """Speed at the start."""
 
     @property
     def happened(self) -> list[Event]:
         """The events that their conditions have brought about, with their instants."""
-        found = zip(self._switches, self._happened.tolist(), strict=True)
-        return [_at(event, time) for event, time in found if not math.isnan(time) and not event.timed]
+        found = zip(self._events, self._happened.tolist(), strict=True)
+        return [event.at(time) for event, time in found if not math.isnan(time) and not event.timed]
 
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
+        self._first = abs(self._system.speed)
         self._look(0.0)
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
@@ -58,12 +65,23 @@ class Happenings(Observer):
         self._look(end)
 
     def _look(self, time: float) -> None:
-        for index, event in enumerate(self._switches):
+        for index, event in enumerate(self._events):
             if math.isnan(self._happened[index]) and self._due(index, event, time):
                 self._happened[index] = time
-                self._system.switch(event.input)
+                self._bring_about(index, event)
 
-    def _due(self, index: int, event: Switch, time: float) -> bool:
+    def _bring_about(self, index: int, event: Conditional) -> None:
+        if isinstance(event, Switch):
+            self._system.switch(event.input)
+        elif isinstance(event, BladeLoss):
+            self._system.switch(port.LOST, 2.0 ** self._numbers[index])
+        elif isinstance(event, Change):
+            unit = self._system.bearings[self._names.index(event.bearing)]
+            (before,) = unit.get_real([event.variable])
+            after = before + event.by if event.by is not None else event.value
+            unit.set_real([event.variable], np.array([after]))
+
+    def _due(self, index: int, event: Conditional, time: float) -> bool:
         if event.timed:
             return time >= event.time * (1.0 - _INSTANT)
         if self._holds(event):
@@ -75,7 +93,7 @@ class Happenings(Observer):
             self._since[index] = math.nan
         return time - self._since[index] >= event.lasting
 
-    def _holds(self, event: Switch) -> bool:
+    def _holds(self, event: Conditional) -> bool:
         system = self._system
         if event.vibration is not None:
             off = system.motion[:, :2] - self._static[:, :2]
@@ -83,19 +101,22 @@ class Happenings(Observer):
         if event.least_gap is not None:
             return bool(system.responses[:, RESPONSE["h_min"]].min() < event.least_gap)
         assert event.speed is not None
-        return abs(system.speed) < event.speed
+        now = abs(system.speed)
+        return now > event.speed if self._first < event.speed else now < event.speed
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
-        return {"happened": self._happened, "since": self._since, "last": self._last}
+        first = np.array([self._first])
+        return {"happened": self._happened, "since": self._since, "last": self._last, "first": first}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
         self._happened[:], self._since[:], self._last[:] = (
             arrays[name] for name in ("happened", "since", "last")
         )
+        (self._first,) = arrays["first"].tolist()
 
 
-def _at(event: Switch, time: float) -> Event:
-    """The event as it happened."""
-    return type(event).model_validate({"kind": event.kind, "time": time})
+def _is_of_the_rotor(event: Event) -> bool:
+    """Whether the rotor itself knows when it happens."""
+    return isinstance(event, BladeLoss) and event.timed

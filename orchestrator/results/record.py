@@ -23,7 +23,7 @@ from orchestrator.results.geometry import train_coordinates, train_variables
 from orchestrator.scenario.events import BladeLoss
 from orchestrator.scenario.file import scenario_toml
 from orchestrator.scenario.scenario import Scenario
-from orchestrator.scenario.schedule import schedule_of
+from orchestrator.scenario.schedule import Schedule, schedule_of
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -231,11 +231,15 @@ def base_attributes(scenario: Scenario, train: Train, outcome: Outcome, message:
     }
     if scenario.analysed_bearing is not None:
         attributes["analysed_bearing"] = scenario.analysed_bearing
+    return attributes | loss_attributes(schedule)
+
+
+def loss_attributes(schedule: Schedule) -> dict[str, Any]:
+    """Attributes of the record that say when and where blades broke."""
     losses = [event for event in schedule.events if isinstance(event, BladeLoss)]
-    if losses:
-        attributes["fracture_time"] = losses[0].time
-        attributes["fracture_wheel"] = "; ".join(loss.wheel for loss in losses)
-    return attributes
+    if not losses:
+        return {}
+    return {"fracture_time": losses[0].time, "fracture_wheel": "; ".join(loss.wheel for loss in losses)}
 
 
 def outcome_attributes(outcome: Outcome, message: str) -> dict[str, Any]:

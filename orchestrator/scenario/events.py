@@ -12,9 +12,10 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, PlainValidator, SerializeAsAny, ValidationError, model_validator
+from pydantic_core import PydanticCustomError, PydanticKnownError
 
 from fmus import port
-from orchestrator.scenario.fields import Angle, Model, NotNegative, Positive
+from orchestrator.scenario.fields import Angle, Finite, Model, NotNegative, Positive
 from rotor_fmu.train.train import Train
 
 Values = dict[str, float | int | bool | str]
@@ -54,7 +55,48 @@ class Event(Model):
         return {}
 
 
-class BladeLoss(Event):
+class Conditional(Event):
+    """Something that happens at an instant, or as soon as a condition holds, once.
+
+    Attributes
+    ----------
+    time : float
+        Instant in s; without one a condition must be given.
+    vibration : float or None
+        Condition: a journal moves further than this from where it started, in its bearing, in m.
+    least_gap : float or None
+        Condition: the least gap of a bearing is below this, in m.
+    speed : float or None
+        Condition: the speed has fallen below this, in rad/s, or risen above it where it began below.
+    lasting : float
+        How long a condition must hold before it counts, in s; a vibration is taken to go on for a revolution.
+    """
+
+    time: Annotated[float, Field(ge=0.0)] = math.inf
+    vibration: Positive | None = None
+    least_gap: float | None = None
+    speed: Positive | None = None
+    lasting: NotNegative = 0.0
+
+    @model_validator(mode="after")
+    def _has_one_cause(self) -> Conditional:
+        causes = [self.vibration, self.least_gap, self.speed]
+        given = sum(cause is not None for cause in causes) + self.timed
+        if given != 1:
+            raise ValueError("allowed is one of time, vibration, least_gap and speed")
+        return self
+
+    def at(self, time: float) -> Conditional:
+        """The event as it happened [s]."""
+        given = self.model_dump(exclude=set(CONDITIONS))
+        return type(self).model_validate({**given, "time": time})
+
+
+CONDITIONS = ("vibration", "least_gap", "speed", "lasting")
+"""Keys of a condition."""
+
+
+class BladeLoss(Conditional):
     """A blade breaks off: the unbalance of its wheel jumps.
 
     Attributes
@@ -93,37 +135,10 @@ class BladeLoss(Event):
         return 1 + [wheel.name for wheel in train.wheels].index(self.wheel)
 
 
-class Switch(Event):
-    """Something that an input of the rotor switches, at an instant or as soon as a condition holds.
-
-    Attributes
-    ----------
-    time : float
-        Instant in s; without one a condition must be given.
-    vibration : float or None
-        Condition: a journal moves further than this from where it started, in its bearing, in m.
-    least_gap : float or None
-        Condition: the least gap of a bearing is below this, in m.
-    speed : float or None
-        Condition: the speed has fallen below this, in rad/s.
-    lasting : float
-        How long a condition must hold before it counts, in s; a vibration is taken to go on for a revolution.
-    """
+class Switch(Conditional):
+    """Something that an input of the rotor switches."""
 
     input: ClassVar[str]
-    time: Annotated[float, Field(ge=0.0)] = math.inf
-    vibration: Positive | None = None
-    least_gap: float | None = None
-    speed: Positive | None = None
-    lasting: NotNegative = 0.0
-
-    @model_validator(mode="after")
-    def _has_one_cause(self) -> Switch:
-        causes = [self.vibration, self.least_gap, self.speed]
-        given = sum(cause is not None for cause in causes) + self.timed
-        if given != 1:
-            raise ValueError("allowed is one of time, vibration, least_gap and speed")
-        return self
 
 
 class Trip(Switch):
@@ -144,7 +159,56 @@ class VacuumBreak(Switch):
     kind: Literal["vacuum-break"] = "vacuum-break"
 
 
-KINDS: dict[str, type[Event]] = {"blade-loss": BladeLoss, "trip": Trip, "vacuum-break": VacuumBreak}
+class Change(Conditional):
+    """A parameter of a bearing changes: its oil, its supply, its surfaces, or where it stands.
+
+    Attributes
+    ----------
+    bearing : str
+        Name of the bearing.
+    parameter : str
+        viscosity in Pa s, ambient_pressure, feed_pressure in Pa, friction, or offset.x, offset.y in m,
+        offset.tilt_x, offset.tilt_y in rad; no other may change while a bearing runs.
+    value : float or None
+        What it becomes.
+    by : float or None
+        What is added to it, in place of a value; so a bearing sinks.
+    """
+
+    label: ClassVar[str] = "change"
+    noun: ClassVar[str] = "change"
+    kind: Literal["change"] = "change"
+    bearing: str
+    parameter: Literal[tuple(port.CHANGEABLE)]  # type: ignore[valid-type]
+    value: Finite | None = None
+    by: Finite | None = None
+
+    @model_validator(mode="after")
+    def _has_one_value(self) -> Change:
+        if (self.value is None) == (self.by is None):
+            raise ValueError("allowed is either value or by")
+        variable = next(v for v in port.BEARING_PARAMETERS if v.name == self.variable)
+        if self.value is not None and not variable.admits(self.value):
+            raise ValueError(f"value = {self.value!r}; allowed is {variable.range}")
+        return self
+
+    @property
+    def variable(self) -> str:
+        """Name of the parameter on the unit."""
+        return port.CHANGEABLE[self.parameter]
+
+    @property
+    def text(self) -> str:
+        """What happens, and where."""
+        return f"{self.parameter} changes at {self.bearing}"
+
+
+KINDS: dict[str, type[Event]] = {
+    "blade-loss": BladeLoss,
+    "trip": Trip,
+    "vacuum-break": VacuumBreak,
+    "change": Change,
+}
 """The kinds of events by their name."""
 DEFAULT = "blade-loss"
 """What a table without a kind describes."""
@@ -165,7 +229,24 @@ def event_of(value: Any) -> Event:
         expected = {"expected": ", ".join(KINDS)}
         error = {"type": "literal_error", "loc": ("kind",), "input": kind, "ctx": expected}
         raise ValidationError.from_exception_data("Event", [error])  # type: ignore[list-item]
-    return KINDS[kind].model_validate(value)
+    try:
+        return KINDS[kind].model_validate(value)
+    except ValidationError as error:
+        if not isinstance(value, Mapping) or any(name in value for name in ("time", *CONDITIONS[:-1])):
+            raise
+        others = [_again(found) for found in error.errors() if found["type"] != "value_error"]
+        missing = {"type": "missing", "loc": ("time",), "input": value}
+        raise ValidationError.from_exception_data("Event", [*others, missing]) from None  # type: ignore[list-item]
+
+
+def _again(found: Any) -> Any:
+    """A problem that pydantic has found, to be raised once more."""
+    kind, context = found["type"], found.get("ctx")
+    try:
+        PydanticKnownError(kind, context)
+    except (KeyError, TypeError):  # a custom one
+        return {**found, "type": PydanticCustomError(kind, found["msg"], context)}
+    return found
 
 
 AnyEvent = Annotated[SerializeAsAny[Event], PlainValidator(event_of)]
@@ -179,16 +260,24 @@ def loss_parameters(events: Sequence[Event], train: Train) -> Values:
     others = []
     for loss in losses:
         given = loss.parameters(train)
-        if loss.time == losses[0].time and values.keys().isdisjoint(given.keys() - {"fracture.time"}):
+        if (
+            loss.timed
+            and loss.time == losses[0].time
+            and values.keys().isdisjoint(given.keys() - {"fracture.time"})
+        ):
             values |= given
         else:
-            others.append([loss.time, loss.wheel_number(train), loss.unbalance, loss.phase])
+            others.append(
+                [loss.time if loss.timed else None, loss.wheel_number(train), loss.unbalance, loss.phase]
+            )
     return values | ({port.LOSSES: json.dumps(others)} if others else {})
 
 
 def to_json(events: Sequence[Event]) -> str:
     """Return events as text, for the attributes of a record."""
-    return json.dumps([event.model_dump(mode="json") for event in events])
+    conditions = [set(CONDITIONS) if event.timed else None for event in events]
+    every = zip(events, conditions, strict=True)
+    return json.dumps([e.model_dump(mode="json", exclude=without, exclude_none=True) for e, without in every])
 
 
 def from_json(text: str) -> tuple[Event, ...]:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
+Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 Interval = Annotated[float, Field(ge=1e-9, le=1e6, allow_inf_nan=False, description="s")]
 NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]

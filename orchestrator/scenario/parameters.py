@@ -52,7 +52,8 @@ def rotor_parameters(scenario: Scenario, train: Train) -> Values:
         values[f"wheel[{index}].blade_phase"] = 0.0
     rotation = scenario.rotation
     if rotation is not None:
-        values["drive.inertia"] = rotation.inertia if rotation.inertia is not None else train.polar_inertia
+        inertia = rotation.inertia if rotation.inertia is not None else train.polar_inertia
+        values["drive.inertia"] = inertia / rotation.haste
         values |= {f"drive.{name}": getattr(rotation, name) for name in ("windage", "windage_broken")}
         values |= {port.COURSE: json.dumps(rotation.course)} if rotation.course else {}
         values |= {port.TORQUE: json.dumps(rotation.torque)} if rotation.torque else {}

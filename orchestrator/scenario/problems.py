@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 
 from bearing_fmu import depths
 from bearing_fmu.depths import LINEAR
-from orchestrator.scenario.events import KINDS, BladeLoss, Event, Switch
+from orchestrator.scenario.events import KINDS, BladeLoss, Change, Event, Switch
 from orchestrator.scenario.scenario import Scenario, is_fmu
 from rotor_fmu.train.toml_source import Location, Problem
 from rotor_fmu.train.train import Train
@@ -79,6 +79,10 @@ def name_problems(raw: Mapping[str, Any], train: Train) -> Iterator[Problem]:
         if isinstance(wheel, str) and wheel not in wheels:
             text = unknown(wheel, "wheel", wheels)
             yield ("events", index, "wheel"), f"events.{index}.wheel = {wheel!r}: {text}"
+        bearing = event.get("bearing") if isinstance(event, dict) else None
+        if isinstance(bearing, str) and bearing not in bearings:
+            text = unknown(bearing, "bearing", bearings)
+            yield ("events", index, "bearing"), f"events.{index}.bearing = {bearing!r}: {text}"
 
 
 def unbalance_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
@@ -173,13 +177,17 @@ def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
 
 def event_problems(scenario: Scenario) -> Iterator[Problem]:
     """Yield events that lack what they need."""
-    rotation = scenario.rotation
     for index, event in enumerate(scenario.events):
-        if not isinstance(event, Switch):
-            continue
-        if rotation is None:
-            place = ("events", index, "kind")
-            yield place, f"events.{index}.kind = {event.kind!r}; allowed is it beside a table rotation"
+        if scenario.rotation is None and (isinstance(event, (Switch, Change)) or not event.timed):
+            what = f"events.{index}.kind = {event.kind!r}"
+            what += "" if event.timed or not isinstance(event, BladeLoss) else ", by a condition"
+            yield ("events", index, "kind"), f"{what}; allowed is it beside a table rotation"
+        if isinstance(event, Change) and scenario.depth_of(event.bearing) == LINEAR.name:
+            where = f"events.{index}.bearing = {event.bearing!r}"
+            yield (
+                ("events", index, "bearing"),
+                f"{where}; allowed is one with a film: this is of depth linear",
+            )
 
 
 def depth_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:

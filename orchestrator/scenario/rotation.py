@@ -62,6 +62,9 @@ class Rotation(Model):
         torque; the speed then follows from the torques. None: the drive holds the speed.
     inertia : float or None
         Of all that turns about its axis, in kg m2; None: that of the train's shaft, wheels and masses.
+    haste : float
+        How many times faster than its inertia lets it a free speed changes, to see a coast-down in minutes:
+        the inertia counts divided by it. Critical speeds that pass faster answer with less, and later.
     windage, windage_broken : float
         Torque of the windage over the square of the speed, in N m s2, in vacuum and with the vacuum broken.
     """
@@ -69,6 +72,7 @@ class Rotation(Model):
     course: Annotated[Course, BeforeValidator(_rows)] | None = None
     torque: Annotated[Course, BeforeValidator(_torque)] | None = None
     inertia: Positive | None = None
+    haste: Annotated[float, Field(ge=1.0, le=1e4)] = 1.0
     windage: NotNegative = 0.0
     windage_broken: NotNegative = Field(0.0)
 

@@ -41,6 +41,8 @@ class Contents:
         The FMU of each component, by its name.
     wiring : Wiring
         What the connections give the rotor.
+    turning : bool
+        Whether the rotor owns its speed.
     """
 
     structure: Structure
@@ -49,6 +51,7 @@ class Contents:
     bearings: tuple[Component, ...]
     files: Mapping[str, FmuFile]
     wiring: Wiring
+    turning: bool = False
 
 
 def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) -> Contents:
@@ -89,8 +92,8 @@ def understand(structure: Structure, path: Path, folder: Path, store: FmuStore) 
     if surplus:
         raise SspError(f"{path}: {', '.join(sorted(surplus))}: joined to no bearing of {rotor.name}")
     moving = train.has_moving_housings
-    wiring = _wiring(structure, rotor, bearings, moving, path)
-    return Contents(structure, train, rotor, bearings, files, wiring)
+    wiring, turning = _wiring(structure, rotor, bearings, moving, path)
+    return Contents(structure, train, rotor, bearings, files, wiring, turning)
 
 
 def _in_units(
@@ -154,14 +157,19 @@ def _in_order(structure: Structure, rotor: Component, count: int, path: Path) ->
 
 def _wiring(
     structure: Structure, rotor: Component, bearings: Iterable[Component], moving: bool, path: Path
-) -> Wiring:
+) -> tuple[Wiring, bool]:
+    """Return what the connections carry, and whether the rotor owns its speed."""
     found = set(structure.connections)
     names = [c.name for c in bearings]
-    wanted = {wiring: set(port_connections(rotor.name, names, wiring, moving=moving)) for wiring in Wiring}
-    for wiring, connections in wanted.items():
+    wanted = {
+        (wiring, turning): set(port_connections(rotor.name, names, wiring, moving=moving, turning=turning))
+        for turning in (False, True)
+        for wiring in Wiring
+    }
+    for kind, connections in wanted.items():
         if found == connections:
-            return wiring
-    nearest = min(Wiring, key=lambda wiring: len(found ^ wanted[wiring]))
+            return kind
+    nearest = min(wanted, key=lambda kind: len(found ^ wanted[kind]))
     problems = [f"  missing: {_text(c)}" for c in _sorted(wanted[nearest] - found)]
     problems += [f"  not of the port: {_text(c)}" for c in _sorted(found - wanted[nearest])]
     more = f"\n  and {len(problems) - _LISTED} more" if len(problems) > _LISTED else ""

@@ -20,6 +20,7 @@ from orchestrator.fmi.unit import Unit
 from orchestrator.master.assembly import join, parts_in_folder
 from orchestrator.master.start.equilibrium import Start, find_start
 from orchestrator.master.system import System, Wiring, port_connections
+from orchestrator.scenario.events import BladeLoss, to_json
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.parameters import (
     Values,
@@ -98,6 +99,7 @@ def export(scenario: Scenario, fmus: Path, out: Path, name: str) -> list[Path]:
                 tolerance=scenario.tolerance if wiring is Wiring.LAW else None,
                 record_interval=scenario.record.interval,
                 analysed_bearing=scenario.analysed_bearing,
+                events=_events(scenario),
             )
             path.parent.mkdir(parents=True, exist_ok=True)
             write_archive(path, documents(structure) | parts.files)
@@ -116,16 +118,17 @@ class _Parts:
 
     def components(self, system: System, start: Start) -> Iterator[Component]:
         """Yield rotor and bearings: Real settings as parameters, others as start values of their FMUs."""
-        given = rotor_parameters(self.scenario, self.train) | {port.SPEED: self.train.speed}
+        speed = self.scenario.start_speed(self.train.speed)
+        given = rotor_parameters(self.scenario, self.train) | {port.SPEED: speed}
         for part, positions in (("", start.static), ("_cos", start.cosine), ("_sin", start.sine)):
             given |= _named(start_names(len(system.bearings), part), positions)
         yield self._component(ROTOR, f"shaft of the train {self.train.name}", system.rotor, given)
         taken = {ROTOR}
         # so that a tool has them right before anything has travelled along a connection
-        journals = np.hstack([start.static + start.cosine, self.train.speed * start.sine])
+        journals = np.hstack([start.static + start.cosine, speed * start.sine])
         of_bearings = zip(system.bearings, self.train.bearings, start.offsets, journals, strict=True)
         for unit, seat, offset, journal in of_bearings:
-            given = {**self.values[seat.name], port.SPEED: self.train.speed}
+            given = {**self.values[seat.name], port.SPEED: speed}
             given |= _named(offset_names(), offset) | _named(port.JOURNAL, journal)
             name = _identifier(seat.name)
             if name in taken:
@@ -172,6 +175,12 @@ class _Parts:
             return rotor_recipe(self.train, starts)
         depth = self.scenario.depth_of(bearing)
         return None if is_fmu(depth) else bearing_recipe(depth, starts)
+
+
+def _events(scenario: Scenario) -> str | None:
+    """Those events that no parameter of the rotor tells, as JSON."""
+    others = [e for e in scenario.events if not (isinstance(e, BladeLoss) and e.timed)]
+    return to_json(others) if others else None
 
 
 def _unlike(file: FmuFile, settings: Values) -> Values:

@@ -84,6 +84,7 @@ def _structure(path: Path, folder: Path, root: Element) -> Structure:
         tolerance=_number(path, "tolerance", run.get("tolerance")),
         record_interval=_number(path, "recordInterval", run.get("recordInterval")),
         analysed_bearing=run.get("analysedBearing"),
+        events=run.get("events"),
         units=units,
     )
 

@@ -18,9 +18,10 @@ from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.system import Wiring
 from orchestrator.scenario.file import replaced
 from orchestrator.scenario.parameters import offset_names
-from orchestrator.scenario.problems import shape_problems, time_problems, unbalance_problems
+from orchestrator.scenario.problems import event_problems, shape_problems, time_problems, unbalance_problems
 from orchestrator.scenario.scenario import FilmSettings, Scenario
 from orchestrator.ssp.contents import Contents, value_of
+from orchestrator.ssp.happening import events_of, rotation_of, wheel_values
 from orchestrator.ssp.structure import SspError
 from rotor_fmu.train.checks import film_problems
 
@@ -87,7 +88,8 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "depth": common,
         "depth_at": {name: depth for name, depth in found.items() if depth != common},
         "unbalance": _unbalance(contents),
-        "events": _events(contents, end),
+        "events": events_of(contents, end, path),
+        "rotation": rotation_of(contents),
         "end": end,
         "step": overrides.get("step") or structure.step or DEFAULT_STEP,
         "coupling": coupling,
@@ -103,6 +105,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
     except ValidationError as error:
         raise ScenarioError(str(path), [text for _, text in shape_problems(error)]) from None
     problems = [text for _, text in (*time_problems(scenario, train), *unbalance_problems(scenario, train))]
+    problems += [text for _, text in event_problems(scenario)]
     problems += _speed_problems(contents)
     problems += _film_problems(contents)
     problems += _start_problems(contents)
@@ -152,11 +155,6 @@ def _depth(file: FmuFile) -> str:
     return depth if depth in depths.names() else file.path.name
 
 
-def _wheel_values(contents: Contents, key: str) -> list[float]:
-    wheels = range(1, len(contents.train.wheels) + 1)
-    return [float(value_of(contents, contents.rotor, f"wheel[{j}].{key}")) for j in wheels]
-
-
 def _whole(value: Any) -> float | str:
     """Return a number without its fraction of zero; one that has another is refused later, by its name."""
     try:
@@ -171,8 +169,8 @@ def _unbalance(contents: Contents) -> dict[str, Any]:
     values = zip(
         train.wheels,
         train.nominal_unbalance,
-        _wheel_values(contents, "unbalance"),
-        _wheel_values(contents, "unbalance_phase"),
+        wheel_values(contents, "unbalance"),
+        wheel_values(contents, "unbalance_phase"),
         strict=True,
     )
     return {
@@ -182,19 +180,3 @@ def _unbalance(contents: Contents) -> dict[str, Any]:
             if (value, phase) != (nominal, wheel.unbalance_phase)
         }
     }
-
-
-def _events(contents: Contents, end: float) -> list[dict[str, Any]]:
-    """The blades that break before the end."""
-    time = float(value_of(contents, contents.rotor, "fracture.time"))
-    lost = zip(
-        contents.train.wheels,
-        _wheel_values(contents, "blade_unbalance"),
-        _wheel_values(contents, "blade_phase"),
-        strict=True,
-    )
-    return [
-        {"wheel": wheel.name, "unbalance": unbalance, "phase": phase, "time": time}
-        for wheel, unbalance, phase in lost
-        if unbalance != 0.0 and time < end
-    ]

@@ -85,6 +85,8 @@ class Structure:
         In s.
     analysed_bearing : str or None
         Shown in summary and figures.
+    events : str or None
+        Events that no parameter of the rotor tells, as JSON.
     units : mapping
         Units that the system definition defines.
     """
@@ -99,4 +101,5 @@ class Structure:
     tolerance: float | None = None
     record_interval: float | None = None
     analysed_bearing: str | None = None
+    events: str | None = None
     units: Mapping[str, UnitDefinition] = field(default_factory=dict)

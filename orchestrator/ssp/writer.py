@@ -88,6 +88,7 @@ def _definition(structure: Structure) -> bytes:
         "tolerance": structure.tolerance,
         "recordInterval": structure.record_interval,
         "analysedBearing": structure.analysed_bearing,
+        "events": structure.events,
     }
     own = SubElement(annotations, "ssc:Annotation", type=RUN)
     given = {key: str(value) for key, value in settings.items() if value is not None}

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class Loss(NamedTuple):
-    """Unbalance that appears at an instant [s]: amount [kg m] and phase [rad], (n_w,) each."""
+    """Unbalance that appears at an instant [s], or when told: amount [kg m] and phase [rad], (n_w,) each."""
 
     time: float
     amount: Array
@@ -40,7 +41,9 @@ class Unbalance:
     fracture_time : float
         Instant of the fracture [s]; infinity for none.
     later : tuple of Loss
-        What is lost besides.
+        What is lost besides; without an instant, that is at infinity, when `come` says so.
+    come : set of int
+        Numbers of losses, from 1, that have come without an instant; changed from outside, between two steps.
     """
 
     amount: Array
@@ -49,6 +52,7 @@ class Unbalance:
     blade_phase: Array
     fracture_time: float
     later: tuple[Loss, ...] = ()
+    come: set[int] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         for name in ("amount", "phase", "blade_amount", "blade_phase"):
@@ -106,9 +110,15 @@ class Unbalance:
         factors = np.zeros(2 + 2 * len(self.losses))
         factors[:2] = pull.real, pull.imag
         for index, loss in enumerate(self.losses, 1):
-            if loss.time <= time:
+            if loss.time <= time or index in self.come:
                 factors[2 * index : 2 * index + 2] = pull.real, pull.imag
         return factors
+
+    def lose(self, code: int) -> None:
+        """Say which losses without an instant have come: the sum of 2^k of them, k from 0."""
+        waiting = [index for index, loss in enumerate(self.later, 2) if math.isinf(loss.time)]
+        self.come.clear()
+        self.come.update(index for k, index in enumerate(waiting) if code >> k & 1)
 
     def inside(self, start: float, end: float) -> Iterator[tuple[int, float]]:
         """Yield number, from 1, and instant of the losses between two instants, both excluded."""
@@ -118,7 +128,7 @@ class Unbalance:
 
 
 def losses_of(text: str, wheels: int) -> tuple[Loss, ...]:
-    """Losses in a text, ``[[2.0, 1, 0.5, 0.0]]``: instant [s], number of the wheel from 1, kg m, rad.
+    """Losses in a text, ``[[2.0, 1, 0.5, 0.0]]``: instant [s] or null, number of the wheel from 1, kg m, rad.
 
     Raises
     ------
@@ -132,11 +142,12 @@ def losses_of(text: str, wheels: int) -> tuple[Loss, ...]:
         for time, wheel, amount, phase in json.loads(text):
             values = np.zeros((2, wheels))
             values[:, range(wheels)[int(wheel) - 1]] = float(amount), float(phase)
-            if not np.isfinite([time, *values.ravel()]).all() or int(wheel) < 1:
+            time = math.inf if time is None else float(time)
+            if math.isnan(time) or not np.isfinite(values).all() or int(wheel) < 1:
                 raise ValueError
-            found.append(Loss(float(time), *values))
+            found.append(Loss(time, *values))
     except (TypeError, ValueError, IndexError):
-        allowed = f"rows of an instant in s, a wheel from 1 to {wheels}, kg m and rad"
+        allowed = f"rows of an instant in s or null, a wheel from 1 to {wheels}, kg m and rad"
         raise ValueError(f"losses = {text!r}; allowed are {allowed}") from None
     return tuple(found)
 

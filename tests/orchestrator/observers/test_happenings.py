@@ -7,13 +7,15 @@ import pytest
 
 from fmus import port
 from orchestrator.case.simulate import simulate
+from orchestrator.errors import ScenarioError
 from orchestrator.fmi.folder import build
 from orchestrator.observers.happenings import Happenings
 from orchestrator.results.ledger import ledger_of
-from orchestrator.scenario.events import Trip, VacuumBreak
+from orchestrator.scenario.events import BladeLoss, Change, Trip, VacuumBreak, from_json, to_json
 from orchestrator.scenario.file import load_scenario
 from orchestrator.scenario.schedule import from_attributes
 from rotor_fmu.train.file import load_train
+from tests.faults import fault
 
 FAN = Path(__file__).parents[2] / "examples" / "fan"
 
@@ -23,10 +25,23 @@ class Machine:
 
     def __init__(self):
         self.motion, self.responses, self.speed = np.zeros((1, 8)), np.ones((1, 52)), 100.0
-        self.switched = []
+        self.switched, self.bearings = [], [Bearing()]
 
-    def switch(self, name):
-        self.switched.append(name)
+    def switch(self, name, by=1.0):
+        self.switched.append(name if by == 1.0 else (name, by))
+
+
+class Bearing:
+    """A unit with parameters."""
+
+    def __init__(self):
+        self.name, self.values = "front", {"offset.y": 1e-4, "viscosity": 0.02}
+
+    def get_real(self, names):
+        return [self.values[name] for name in names]
+
+    def set_real(self, names, values):
+        self.values |= dict(zip(names, values, strict=True))
 
 
 def watched(machine, *events):
@@ -69,6 +84,53 @@ def test_gap_and_speed():
     machine.speed = 40.0
     happenings.watch(0.1, 0.2, None)
     assert machine.switched == [port.RELEASED, port.VACUUM_BROKEN]
+
+
+def test_a_blade_is_lost_and_a_bearing_sinks_by_condition():
+    """Each loss by a condition has its own digit; a speed that began below its limit counts from above."""
+    machine = Machine()
+    lost = {"wheel": "wheel", "unbalance": 0.1}
+    sinks = Change(bearing="front", parameter="offset.y", by=-2e-5, speed=110.0)
+    thin = Change(bearing="front", parameter="viscosity", value=0.01, time=0.15)
+    happenings = watched(
+        machine, BladeLoss(**lost, time=0.1), BladeLoss(**lost, least_gap=1e-6),
+        BladeLoss(**lost, speed=105.0), sinks, thin,
+    )  # fmt: skip
+    machine.speed = 106.0
+    happenings.watch(0.0, 0.1, None)
+    assert machine.switched == [(port.LOST, 2.0)]
+    machine.speed = 111.0
+    happenings.watch(0.1, 0.2, None)
+    assert machine.bearings[0].values == {"offset.y": pytest.approx(8e-5), "viscosity": 0.01}
+    found = [(event.kind, event.time) for event in happenings.happened]
+    assert found == [("blade-loss", 0.1), ("change", 0.2)]
+    assert from_json(to_json(happenings.happened)) == tuple(happenings.happened)
+
+
+@fault(
+    "input",
+    "an event that changes what may not change, or without a value",
+    "exit 2; the key, the value and what is allowed",
+    guard="orchestrator.scenario.problems:shape_problems",
+)
+def test_refused_changes():
+    for change, allowed in (
+        ({"parameter": "clearance", "value": 1e-4}, "clearance"),
+        ({"parameter": "viscosity", "value": -1.0}, "allowed is > 0"),
+        ({"parameter": "viscosity"}, "either value or by"),
+    ):
+        event = {"kind": "change", "bearing": "fan-side", "time": 0.1, **change}
+        with pytest.raises(ScenarioError, match=allowed):
+            load_scenario(FAN / "coast-down.toml", {"events": [event]})
+    for event, allowed in (
+        (
+            {"kind": "change", "bearing": "fan-site", "time": 0.1, "parameter": "viscosity", "by": 0.1},
+            "fan-side",
+        ),
+        ({"wheel": "wheel", "unbalance": 0.01, "speed": 100.0}, "beside a table rotation"),
+    ):
+        with pytest.raises(ScenarioError, match=allowed):
+            load_scenario(FAN / "loss.toml", {"event": None, "events": [event]})
 
 
 @pytest.fixture(scope="module")

@@ -178,7 +178,7 @@ def test_a_train_that_does_not_exist(tmp_path):
 )
 def test_a_scenario_that_does_not_exist():
     with pytest.raises(
-        ScenarioError, match=r"papr: no such scenario; did you mean 'paper'\? allowed are paper, small"
+        ScenarioError, match=r"papr: no such scenario; did you mean 'paper'\? allowed are coast-down, "
     ):
         load_scenario("papr")
 

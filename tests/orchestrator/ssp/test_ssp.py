@@ -63,8 +63,34 @@ def edited(source, target, changes):
         {"coupling": "multirate", "tolerance": 1e-3},
         {"event": None, "unbalance": {"grade": 1e-3, "at": {"wheel-1": {"unbalance": 0.02, "phase": 0.3}}}},
         {"depth": "linear", "depth_at": {}, "linear_from": "v3"},
+        {
+            "rotation": {"inertia": 40.0, "windage": 0.5},
+            "event": None,
+            "events": [
+                {"wheel": "wheel-2", "unbalance": 0.3, "time": 0.00213},
+                {"wheel": "wheel-1", "unbalance": 0.2, "phase": 1.0, "speed": 311.0},
+                {"kind": "trip", "time": 0.003},
+                {"kind": "change", "bearing": "rear", "parameter": "offset.y", "by": -3e-7, "time": 0.008},
+            ],
+        },
+        {
+            "rotation": {"course": [[0.0, 300.0], [0.01, 320.0]], "windage": 0.5},
+            "coupling": "multirate",
+            "tolerance": 1e-3,
+            "events": [{"kind": "trip", "time": 0.005}],
+            "event": None,
+        },
     ],
-    ids=["as it comes", "reduction and film", "controlled steps", "many rates", "no fracture", "linear"],
+    ids=[
+        "as it comes",
+        "reduction and film",
+        "controlled steps",
+        "many rates",
+        "no fracture",
+        "linear",
+        "turning",
+        "run-up",
+    ],
 )
 def test_scenario_to_ssp_to_run_equals_the_run_of_the_scenario(settings, fmus, tmp_path):
     scenario = small(**settings)
@@ -73,6 +99,8 @@ def test_scenario_to_ssp_to_run_equals_the_run_of_the_scenario(settings, fmus, t
     assert set(direct.variables) == set(back.variables)
     for name in direct.variables:
         np.testing.assert_array_equal(back[name].values, direct[name].values, err_msg=name)
+    if scenario.turns:
+        assert back["rotation_speed"].values[-1] != back["rotation_speed"].values[-5]
     assert back.attrs["ssp"].startswith("small.ssp sha256 ")
 
 

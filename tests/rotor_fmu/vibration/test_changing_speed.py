@@ -163,6 +163,27 @@ def test_what_is_lost_later_is_lost_as_the_first(speeds):
     np.testing.assert_allclose(ran(0, ()) + ran(1, ()), both, rtol=1e-9, atol=1e-14)
 
 
+def test_what_is_lost_when_told_is_lost_as_at_the_instant():
+    """To the bit, from the step on before which it is told; and what comes after it has its own digit."""
+    F0, K, C = linear_bearings()
+
+    def ran(first, second, codes):
+        none = unbalance([0.0, 0.0], [0.0, 0.0])
+        lost = (
+            Loss(first, np.array([0.05, 0.0]), np.zeros(2)),
+            Loss(second, np.array([0.0, 0.03]), np.ones(2)),
+        )
+        rotor = small_rotor(speed=12.0, excitation=type(none)(**{**vars(none), "later": lost}))
+        rotor.start_from_law(0.0 * F0, K, C, orbit=True)
+        for k in range(40):
+            rotor.unbalance.lose(codes(k))
+            rotor.step(k * 1e-2, 1e-2, 0.0 * F0, K, C, 12.0 + 0.1 * k)
+        return rotor.kinematics()
+
+    told = ran(math.inf, math.inf, lambda k: (k >= 20) + 2 * (k >= 30))
+    np.testing.assert_array_equal(told, ran(0.2, 0.3, lambda k: 0))
+
+
 def test_losses_and_courses_as_texts():
     (loss,) = losses_of("[[2.0, 2, 0.5, -0.1]]", 3)
     assert (loss.time, loss.amount.tolist(), loss.phase.tolist()) == (2.0, [0, 0.5, 0], [0, -0.1, 0])
