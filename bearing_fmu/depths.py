@@ -39,8 +39,8 @@ class Film(Protocol):
 
         Returns
         -------
-        outputs : ndarray, shape (58,)
-            In the order of `fmus.port.BEARING_OUTPUTS`.
+        outputs : ndarray, shape (58,) or more
+            In the order of `fmus.port.BEARING_OUTPUTS`, and of what it tells of `fmus.port.BEARING_DETAILS`.
         state : ndarray
             At the end of the step.
 
@@ -86,6 +86,8 @@ class Depth:
         line about it, empty where it was done before; empty: nothing to be done.
     remembering : tuple of str
         Those of `boundaries` with which outputs depend on earlier inputs.
+    pads : bool
+        Whether it knows tilting pads, whose places belong to the state.
     colour : str
         Of its lines in figures; empty: the next that is free.
     """
@@ -103,13 +105,14 @@ class Depth:
     boundaries: tuple[str, ...] = ("guembel",)
     ahead: str = ""
     remembering: tuple[str, ...] = ()
+    pads: bool = False
     colour: str = ""
 
     @property
     def variables(self) -> tuple[Variable, ...]:
         """The unit, in the order of its value references."""
         own = tuple(v.name for v in self.parameters[len(port.BEARING_PARAMETERS) :])
-        computed = (*port.BEARING_OUTPUTS, port.BEARING_FAILURE)
+        computed = (*port.BEARING_OUTPUTS, *port.BEARING_DETAILS, port.BEARING_FAILURE)
         *outputs, failure = (replace(v, starts_on=(*(v.starts_on or ()), *own)) for v in computed)
         return (*port.BEARING_INPUTS, *outputs, *self.parameters, failure)
 
@@ -173,6 +176,7 @@ register(
         film="bearing_fmu.films.tilted.depth:make",
         tilts=True,
         boundaries=("guembel", "reynolds", "jfo"),
+        pads=True,
         remembering=("jfo",),
     )
 )
@@ -183,6 +187,7 @@ register(
         text="Journal bearing: Reynolds equation of the aligned journal, with solid contact.",
         film="bearing_fmu.films.aligned.depth:make",
         boundaries=("guembel", "reynolds"),
+        pads=True,
         quick=True,
     )
 )

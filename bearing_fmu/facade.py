@@ -91,7 +91,7 @@ class BearingSlave(UnitSlave):
             outputs, state = self._film.evaluate(state, self.inputs, dt)
         except ArithmeticError as error:
             raise UnitError(f"film failed: {error}", port.Failure.FILM) from None
-        self._outputs[:] = outputs
+        self._outputs[: len(outputs)] = outputs  # the details behind them only some films tell
         self._state = state
 
     def model_state(self) -> FilmState | None:

@@ -250,7 +250,7 @@ class Film:
         inputs[16] = speed
         inputs[:4] += self.offset
         out, _ = self.evaluate(_NO_MEMORY, inputs, 0.0)
-        gap = out[OUT_GAP:]
+        gap = out[OUT_GAP:OUTPUTS]
         return BearingResponse(
             wrench=out[:OUT_F0].copy(),
             stiffness=out[OUT_K:OUT_C].reshape(4, 4).copy(),

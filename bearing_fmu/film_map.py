@@ -24,6 +24,7 @@ from bearing_fmu.kernels.compiled import kernel
 from bearing_fmu.kernels.grid import COS, SIN
 from bearing_fmu.outputs import INPUTS, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.bore import TURN
 from fmus.port.variable import Value
 
@@ -81,7 +82,7 @@ def film_map(
     Returns
     -------
     FilmMap or None
-        None for a depth that solves no film, or whose film cannot be looked into.
+        None for a depth that solves no film, whose film cannot be looked into, or with tilting pads.
 
     Raises
     ------
@@ -91,7 +92,7 @@ def film_map(
     if depth not in depths.films():
         return None
     film = depths.find(depth).make(values)
-    if not isinstance(film, Film):
+    if not isinstance(film, Film) or isinstance(film, TiltingFilm):
         return None
     inputs = np.zeros(INPUTS)
     inputs[:4], inputs[4:8], inputs[16] = np.asarray(q) + film.offset, v, speed

@@ -18,7 +18,7 @@ INPUTS, STATE = 17, 12
 # Where the groups of the port's outputs begin.
 OUT_WRENCH, OUT_F0, OUT_K, OUT_C, OUT_GAP, OUTPUTS = 0, 4, 8, 24, 40, 58
 #: Largest rise of the temperature that is told, K: a centred journal lets no oil out.
-_HOTTEST = 1e3
+HOTTEST = 1e3
 
 
 @inner_kernel
@@ -159,7 +159,7 @@ def write_outputs(
     draft[OUT_GAP + 15] = contact[AREA] / (np.pi * area)
     draft[OUT_GAP + 16] = scales.flow * result[FLOW]
     power, carried = max(draft[OUT_GAP + 9], 0.0), 2.0 * scales.heat * draft[OUT_GAP + 16]
-    rise = power / carried if power < _HOTTEST * carried else (_HOTTEST if power > 0.0 else 0.0)
+    rise = power / carried if power < HOTTEST * carried else (HOTTEST if power > 0.0 else 0.0)
     draft[OUT_GAP + 17] = scales.supply + rise
     probe = 0.0
     for i in range(OUTPUTS):

@@ -108,6 +108,10 @@ class BearingParameters:
                 "bearing parameters feed_content < 1 and feed_flow > 0: allowed with boundary = 'jfo' and "
                 "grooves in the bore only"
             )
+        if self.boundary == "jfo" and (self.tilts or self.has_pockets):
+            raise ValueError(
+                "bearing parameter boundary = 'jfo': allowed with fixed pads and without pockets only"
+            )
         if self.boundary == "jfo" and not (self.arcs or self.ambient_pressure > 0.0):
             raise ValueError(
                 "bearing parameter boundary = 'jfo': oil must come from somewhere; allowed with grooves in "
@@ -153,6 +157,16 @@ class BearingParameters:
     def arcs(self) -> Bore:
         """Arcs of the bore; none of a plain one."""
         return from_text(self.bore)
+
+    @property
+    def tilts(self) -> bool:
+        """Whether it has tilting pads."""
+        return any(arc.tilts for arc in self.arcs)
+
+    @property
+    def has_pockets(self) -> bool:
+        """Whether its bore has pockets."""
+        return any(arc.share > 0.0 for arc in self.arcs)
 
     @property
     def is_turbulent(self) -> bool:

@@ -39,7 +39,7 @@ def bearing_recipe(name: str, starts: Mapping[str, Value] | None = None) -> Reci
     # the films of this package travel together, so that units of all depths share their sources
     films = sorted({module for module in modules if module.startswith("bearing_fmu.")} | {own})
     forgetting = [] if depth.memory else [b for b in depth.boundaries if b not in depth.remembering]
-    forgets = not (depth.memory or depth.remembering)
+    forgets = not (depth.memory or depth.remembering or depth.pads)
     promised = (
         (MEMORYLESS, forgets),
         *((memoryless_with(word), not forgets) for word in forgetting),

@@ -132,6 +132,15 @@ def fill_gap(bore: Bore, side: int, ex: float, ey: float, ring: Floats, gap: Flo
 
 
 @inner_kernel
+def deepen(bore: Bore, side: int, z: float, gap: Floats) -> None:
+    """Add the depth of pockets to the gap at one z over half the width."""
+    if bore is not None:
+        for i in range(bore.reach.shape[1]):
+            if abs(z) <= bore.reach[side, i]:
+                gap[i] += bore.deep[side, i]
+
+
+@inner_kernel
 def fill_gap_change(
     bore: Bore, side: int, ex: float, ey: float, fc: float, fs: float, k: int, ring: Floats, change: Floats
 ) -> None:

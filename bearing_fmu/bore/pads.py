@@ -40,6 +40,9 @@ class Pads(NamedTuple):
     cells: Whole  #: (arcs,) cells between its first and its last column
     centre: Floats  #: (2, 2, m) `shift` at columns and faces
     inside: Floats  #: (2, m) 1 on arcs, their ends included; 0 in grooves
+    deep: Floats  #: (2, m) how much deeper pockets are
+    reach: Floats  #: (2, m) to which |z| over half the width, -1 without a pocket
+    fed: Floats  #: (m,) 1 in columns whose pocket holds the feed pressure
     held: Whole  #: columns that hold the feed pressure
     rest: Floats  #: (2, RING_ROWS, m) what of the grid does not move
 
@@ -79,6 +82,7 @@ def pads(bore: Sequence[Arc], columns: int) -> Pads:
     first = np.concatenate(([0], np.cumsum(np.add(cells, behind))[:-1])).astype(np.int64)
     centre, inside = np.zeros((2, 2, columns)), np.zeros((2, columns))
     rest, held = np.zeros((2, RING_ROWS, columns)), set()
+    deep, reach, fed = np.zeros((2, columns)), np.full((2, columns), -1.0), np.zeros(columns)
     cell = TURN / columns
     for k, arc in enumerate(bore):
         at, count, pieces = int(first[k]), cells[k], behind[k]
@@ -86,6 +90,12 @@ def pads(bore: Sequence[Arc], columns: int) -> Pads:
             here = here % columns
             centre[side][:, here] = np.array(arc.shift)[:, None]
             inside[side, here] = 1.0
+        if arc.share > 0.0:
+            inner, edges = np.arange(at + 1, at + count) % columns, np.arange(at, at + count + 1) % columns
+            between = np.arange(at, at + count) % columns
+            deep[0, inner] = deep[1, between] = arc.depth
+            reach[0, edges] = reach[1, between] = arc.share
+            fed[edges] = float(arc.fed)
         last = at + count
         width = (bore[(k + 1) % len(bore)].start - arc.end) % TURN / max(pieces, 1)
         for i in range(pieces):
@@ -108,6 +118,9 @@ def pads(bore: Sequence[Arc], columns: int) -> Pads:
         cells=np.array(cells, dtype=np.int64),
         centre=centre,
         inside=inside,
+        deep=deep,
+        reach=reach,
+        fed=fed,
         held=np.array(sorted(held), dtype=np.int64),
         rest=rest,
     )

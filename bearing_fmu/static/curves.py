@@ -14,6 +14,7 @@ from bearing_fmu.film import Film
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.static.equilibrium import Carried, carried_each, threshold
 from bearing_fmu.static.pressure import PressureMap, pressure_map, short_side_flow
+from fmus import port
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
@@ -88,6 +89,10 @@ class Bearing:
         if not isinstance(film, Film):
             raise ValueError(f"depth {depth} is none of the films of this package")
         self._film, self._parameters = film, BearingParameters.of(centred)
+        # of tilting pads stiffness and damping are those of a whirl with the rotation, as in tables
+        whirling = self.depth.make({**centred, port.WHIRL.name: 1.0}) if self._parameters.tilts else film
+        assert isinstance(whirling, Film)
+        self._whirling = whirling
 
     def load_of(self, sommerfeld: float, speed: float) -> float:
         """Load of a Sommerfeld number at a speed [rad/s], N."""
@@ -104,6 +109,9 @@ class Bearing:
         ]
 
     def _point(self, found: Carried, sommerfeld: float) -> Point:
+        if self._whirling is not self._film:
+            place = np.array([*found.position, 0.0, 0.0])
+            found = replace(found, response=self._whirling.respond(place, np.zeros(4), found.speed))
         p, there = self._parameters, found.response
         load, speed = float(np.hypot(*found.load)), abs(found.speed)
         k, b = (p.clearance * matrix for matrix in found.matrices())

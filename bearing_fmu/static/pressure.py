@@ -8,15 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.film import Film
+from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
+from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.depth import SOLVER
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
-from bearing_fmu.outputs import INPUTS, OUTPUTS
+from bearing_fmu.outputs import INPUTS, OUT_GAP, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import OPEN
+from bearing_fmu.tilting.film import TiltingFilm
 
 Floats = NDArray[np.float64]
+
+OIL_FLOW = OUT_GAP + 16
 
 
 @dataclass(frozen=True)
@@ -33,12 +38,15 @@ class PressureMap:
         Over the cavity, 0 where the film is ruptured, Pa.
     side_flow : float
         Oil pressed out at both ends, m3/s.
+    content : ndarray, shape (m, n), or None
+        Of a mass-conserving film the share of the gap that oil fills.
     """
 
     angle: Floats
     z: Floats
     pressure: Floats
     side_flow: float
+    content: Floats | None = None
 
 
 def pressure_map(
@@ -62,6 +70,10 @@ def pressure_map(
     FilmFailure
         The state has no film.
     """
+    if parameters.tilts:
+        return _of_pads(parameters, q, v, speed)
+    if parameters.boundary == "jfo":
+        return _conserving(parameters, q, v, speed)
     film = Film(SOLVER, replace(parameters, layer_thickness=0.0))
     space, data = film.take()
     work = data[-2]
@@ -78,6 +90,48 @@ def pressure_map(
         if fed_at is not None:
             work.held[:, fed_at] = 0.0  # other films share the work space
         film.bring_back(space)
+
+
+def _of_pads(parameters: BearingParameters, q: Floats, v: Floats, speed: float) -> PressureMap:
+    """The films of all pads where they stand at rest."""
+    bearing = TiltingFilm(SOLVER, parameters)
+    maps = []
+    for pad, place in zip(bearing.pads, bearing.places(q, speed), strict=True):
+        seen = np.array(q, dtype=float)
+        seen[:2] += place @ np.array(pad.axes)
+        one = pressure_map(pad.film.parameters, seen, v, speed)
+        on = [pad.arc.covers(float(angle)) for angle in one.angle]
+        maps.append((one.angle[on], one.pressure[on], one.z, one.side_flow))
+    angle = np.concatenate([one[0] for one in maps])
+    order = np.argsort(angle)
+    pressure = np.concatenate([one[1] for one in maps])[order]
+    return PressureMap(angle[order], maps[0][2], pressure, sum(one[3] for one in maps))
+
+
+def _conserving(parameters: BearingParameters, q: Floats, v: Floats, speed: float) -> PressureMap:
+    """A mass-conserving film in balance, with its content."""
+    film = ConservingFilm(CONSERVING, parameters)
+    inputs, out = np.zeros(INPUTS), np.zeros(OUTPUTS)
+    inputs[:4], inputs[4:8], inputs[16] = q, v, speed
+    status = film.solve(inputs, film.offset, out)
+    if status:
+        raise film.failure(status, inputs, film.offset)
+    space, data = film.take()  # as the solution left it
+    try:
+        jfo = data[3]
+        n, m = parameters.rows, parameters.columns
+        unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
+        pressure, content = np.full((m, n + 2), parameters.ambient_pressure), np.empty((m, n + 2))
+        pressure[:, :n] = unit * jfo.net.pressure[:, :m].T
+        content[:, :n] = jfo.net.content[:, :m].T
+        nodes, columns = jfo.film.nodes, jfo.film.rings[0]
+        angle, along = np.arctan2(columns[SIN], columns[COS]), np.argsort(nodes)
+    finally:
+        film.bring_back(space)
+    content[:, n:] = content[:, along[[1, -2]]] if nodes[n] < nodes[n + 1] else content[:, along[[-2, 1]]]
+    grid = np.ix_(np.argsort(angle), along)
+    z = 0.5 * parameters.width * nodes[along]
+    return PressureMap(np.sort(angle), z, pressure[grid], float(out[OIL_FLOW]), content[grid])
 
 
 def _map_of(parameters: BearingParameters, work: TiltedFilm) -> PressureMap:

@@ -3,7 +3,8 @@
 ``memoryless``: its outputs after a step follow from the inputs at its end alone.  Such a unit needs no
 saved state to take a step back: the next step on other inputs overwrites all.
 
-``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word.
+``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word, and no
+pad tilts in its parameter ``bore``.
 
 ``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
 
@@ -16,7 +17,7 @@ from collections.abc import Iterable
 from xml.etree.ElementTree import Element, SubElement
 
 MEMORYLESS, ISOTROPIC, AFFINE = "memoryless", "isotropic", "affine"
-BOUNDARY = "film.boundary"
+BOUNDARY, BORE = "film.boundary", "bore"
 _TOOL, _MARK = "bladeloss", "Promises"
 
 

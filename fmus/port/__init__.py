@@ -22,6 +22,7 @@ from __future__ import annotations
 from fmus.port.balance import ENERGY, VIBRATION, WORK
 from fmus.port.bearing import (
     BEARING,
+    BEARING_DETAILS,
     BEARING_FAILURE,
     BEARING_INPUTS,
     BEARING_KEYS,
@@ -48,6 +49,7 @@ from fmus.port.connector import (
     C,
     K,
 )
+from fmus.port.details import MOST_PADS, WHIRL
 from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, LOST, RELEASED, ROTATION, TORQUE, VACUUM_BROKEN
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.linear_bearing import (
@@ -67,6 +69,7 @@ from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability,
 
 __all__ = [
     "BEARING",
+    "BEARING_DETAILS",
     "BEARING_FAILURE",
     "BEARING_INPUTS",
     "BEARING_KEYS",
@@ -89,6 +92,7 @@ __all__ = [
     "LINEAR_PARAMETERS",
     "LOSSES",
     "LOST",
+    "MOST_PADS",
     "NOMINAL_SPEED",
     "POSITION",
     "RELEASED",
@@ -103,6 +107,7 @@ __all__ = [
     "VACUUM_BROKEN",
     "VELOCITY",
     "VIBRATION",
+    "WHIRL",
     "WORK",
     "WRENCH",
     "C",

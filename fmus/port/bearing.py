@@ -17,6 +17,7 @@ from fmus.port.connector import (
     kinematics,
     law,
 )
+from fmus.port.details import DETAILS, WHIRL
 from fmus.port.failure import FAILURE
 from fmus.port.variable import Variable
 
@@ -174,6 +175,7 @@ _PARAMETERS: tuple[Variable, ...] = (
             ("heat_capacity", "J/(kg.K)", "specific heat capacity of the oil", 2e3, 1e3),
         )
     ),
+    WHIRL,
 )
 
 BEARING_PARAMETERS = tuple(replace(v, tunable=v.name in CHANGEABLE.values()) for v in _PARAMETERS)
@@ -230,6 +232,9 @@ _OUTPUTS: tuple[Variable, ...] = (
 )
 BEARING_OUTPUTS = tuple(replace(v, starts_on=_AT_START) for v in _OUTPUTS)
 
+BEARING_DETAILS = tuple(replace(v, depends_on=_ON_STATE, starts_on=_AT_START) for v in DETAILS)
+"""Outputs that only some films of bladeloss tell, else 0; bearings of others need not have them."""
+
 BEARING_KEYS: dict[str, str] = {
     "diameter": "diameter",
     "width": "width",
@@ -260,7 +265,13 @@ BEARING_KEYS: dict[str, str] = {
 BEARING_FAILURE = replace(FAILURE, depends_on=_ON_STATE, starts_on=_AT_START)
 """The last variable of each bearing."""
 
-BEARING: tuple[Variable, ...] = (*BEARING_INPUTS, *BEARING_OUTPUTS, *BEARING_PARAMETERS, BEARING_FAILURE)
+BEARING: tuple[Variable, ...] = (
+    *BEARING_INPUTS,
+    *BEARING_OUTPUTS,
+    *BEARING_DETAILS,
+    *BEARING_PARAMETERS,
+    BEARING_FAILURE,
+)
 """The unit of a bearing, in the order of its value references; a depth may have more parameters."""
 
 

@@ -14,109 +14,27 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
-from itertools import pairwise
+from dataclasses import astuple, replace
+
+from fmus.port.arc import ROUND, TURN, Arc, Bore, check
 
 PLAIN = "plain"
 """The word for a bore without arcs."""
 
-MOST_ARCS = 12
-TURN = 2.0 * math.pi
-_STEP = 1e-9  # of the gap where two arcs touch, over the clearance
-_ROUND = 1e-12  # of angles
-
-
-@dataclass(frozen=True)
-class Arc:
-    """A part of a bore with one centre.
-
-    Attributes
-    ----------
-    start, end : float
-        Where it begins and ends, in rad from x to y; ``start < end <= start + 2 pi``.
-    preload : float
-        By how much its centre is moved, over the clearance: 1 - least gap of the centred journal over C
-        where the arc reaches that far; 0 to less than 1.
-    towards : float
-        Angle at which the arc comes closest to a centred journal.
-    """
-
-    start: float
-    end: float
-    preload: float = 0.0
-    towards: float = 0.0
-
-    @property
-    def length(self) -> float:
-        """Angle that it covers."""
-        return self.end - self.start
-
-    @property
-    def shift(self) -> tuple[float, float]:
-        """What is added to a position to have it seen from the arc's centre, over the clearance."""
-        return self.preload * math.cos(self.towards), self.preload * math.sin(self.towards)
-
-    def gap(self, angle: float, x: float = 0.0, y: float = 0.0) -> float:
-        """Gap over the clearance at an angle."""
-        sx, sy = self.shift
-        return 1.0 - (x + sx) * math.cos(angle) - (y + sy) * math.sin(angle)
-
-    def covers(self, angle: float) -> bool:
-        """Whether an angle lies on the arc."""
-        return (angle - self.start) % TURN <= self.length
-
-    def room(self, angle: float) -> float:
-        """Displacement in a direction, over the clearance, at which the journal touches the arc.
-
-        Infinity where it never does.
-        """
-        # gap 0 at phi: r = (1 - preload cos(phi - towards)) / cos(phi - angle); inside the arc e(r) = 1
-        ends = [(self.gap(phi), math.cos(phi - angle)) for phi in (self.start, self.end)]
-        reach = min((gap / along for gap, along in ends if along > _ROUND), default=math.inf)
-        mixed = self.preload * math.cos(self.towards - angle)
-        radius = math.sqrt(max(mixed * mixed + 1.0 - self.preload**2, 0.0)) - mixed
-        sx, sy = self.shift
-        touch = math.atan2(radius * math.sin(angle) + sy, radius * math.cos(angle) + sx)
-        if self.covers(touch):
-            reach = min(reach, radius)
-        return reach
-
-
-Bore = tuple[Arc, ...]
-"""The arcs in the order of their angles; none for a plain bore."""
-
-
-def check(bore: Sequence[Arc]) -> Bore:
-    """Return the arcs of a bore in order.
-
-    Raises
-    ------
-    ValueError
-        What is wrong with which arc; angles in degrees.
-    """
-    if len(bore) > MOST_ARCS:
-        raise ValueError(f"{len(bore)} arcs; allowed are at most {MOST_ARCS}")
-    for number, arc in enumerate(bore, start=1):
-        if not all(math.isfinite(value) for value in astuple(arc)):
-            raise ValueError(f"arc {number}: allowed are finite numbers only")
-        if not 0.0 <= arc.preload < 1.0:
-            raise ValueError(f"arc {number}: preload = {arc.preload:.6g}; allowed is 0 to less than 1")
-        if not math.radians(5.0) <= arc.length <= TURN + _ROUND:
-            raise ValueError(
-                f"arc {number}: from {math.degrees(arc.start):.6g} to {math.degrees(arc.end):.6g} deg; "
-                "allowed is 5 to 360 deg from its start to its end"
-            )
-    ordered = tuple(sorted(bore, key=lambda arc: arc.start))
-    for before, after in pairwise((*ordered, *ordered[:1])):
-        turn = TURN if after is ordered[0] else 0.0
-        groove = after.start + turn - before.end
-        here, there = math.degrees(before.end), math.degrees(after.start)
-        where = f"arcs that end at {here:.6g} and start at {there:.6g} deg"
-        if groove < -_ROUND:
-            raise ValueError(f"{where}: they overlap by {math.degrees(-groove):.3g} deg")
-        if groove <= _ROUND and abs(before.gap(before.end) - after.gap(after.start)) > _STEP:
-            raise ValueError(f"{where}: the gap has a step; allowed is a step in a groove between them only")
-    return ordered
+__all__ = [
+    "PLAIN",
+    "TURN",
+    "Arc",
+    "Bore",
+    "check",
+    "from_text",
+    "grooved",
+    "lobes",
+    "pocketed",
+    "room",
+    "tilting",
+    "to_text",
+]
 
 
 def lobes(count: int, preload: float, offset: float = 0.5, first: float = 0.0) -> Bore:
@@ -138,6 +56,31 @@ def lobes(count: int, preload: float, offset: float = 0.5, first: float = 0.0) -
     return tuple(Arc(start, start + length, preload, start + offset * length) for start in starts)
 
 
+def tilting(
+    count: int, arc: float, preload: float, offset: float = 0.5, first: float = 0.0, compliance: float = 0.0
+) -> Bore:
+    """A bore of equal tilting pads, each in the middle of its share of the turn.
+
+    Parameters
+    ----------
+    count : int
+        How many.
+    arc : float
+        Angle that a pad covers.
+    preload : float
+        1 - least gap at the pivots of the centred journal over the clearance between pad and journal.
+    offset : float
+        Where the pivot is, as the share of the pad's length from its start; in the sense from x to y.
+    first : float
+        Angle at which the share of the first pad begins.
+    compliance : float
+        Of each pivot, m/N.
+    """
+    share = TURN / count
+    starts = [first + (k + 0.5) * share - 0.5 * arc for k in range(count)]
+    return tuple(Arc(start, start + arc, preload, start + offset * arc, compliance) for start in starts)
+
+
 def grooved(bore: Sequence[Arc], grooves: Sequence[tuple[float, float]]) -> Bore:
     """Cut grooves into a bore.
 
@@ -157,20 +100,58 @@ def grooved(bore: Sequence[Arc], grooves: Sequence[tuple[float, float]]) -> Bore
                 stop = start + width
                 if stop <= arc.start or start >= arc.end:
                     continue
-                if start - arc.start > _ROUND:
+                if start - arc.start > ROUND:
                     left.append(Arc(arc.start, start, arc.preload, arc.towards))
                 arc = Arc(min(stop, arc.end), arc.end, arc.preload, arc.towards)
-            if arc.length > _ROUND:
+            if arc.length > ROUND:
                 left.append(arc)
         parts = left
     return _joined(parts)
+
+
+def pocketed(bore: Sequence[Arc], pockets: Sequence[tuple[float, float, float, float, bool]]) -> Bore:
+    """Cut pockets into a bore; ValueError where one does not lie on one arc.
+
+    Parameters
+    ----------
+    bore : sequence of Arc
+        Its arcs; those of a plain bore are one of a full turn.
+    pockets : sequence of (float, float, float, float, bool)
+        Angle of the middle and width of each in rad, share of the bearing's width, depth over the clearance,
+        and whether it holds the feed pressure.
+    """
+    parts = list(bore)
+    for middle, width, share, depth, fed in pockets:
+        left: list[Arc] = []
+        start = middle - 0.5 * width
+        for arc in parts:
+            low = arc.start + (start - arc.start + ROUND) % TURN - ROUND
+            if arc.share > 0.0 or low + width > arc.end + ROUND:
+                left.append(arc)
+                continue
+            pieces = ((arc.start, low), (low, low + width), (low + width, arc.end))
+            for number, (here, there) in enumerate(pieces):
+                if there - here > ROUND:
+                    one = Arc(here, there, arc.preload, arc.towards)
+                    left.append(replace(one, depth=depth, share=share, fed=fed) if number == 1 else one)
+        if len(left) == len(parts) and left == parts:
+            raise ValueError(
+                f"pocket of {math.degrees(width):.6g} deg at {math.degrees(middle):.6g} deg; allowed is a "
+                "place on one arc, between its grooves and other pockets"
+            )
+        parts = left
+    return tuple(parts)
 
 
 def _joined(parts: Sequence[Arc]) -> Bore:
     """The arcs; two of one circle that meet where a turn ends are one."""
     if len(parts) > 1:
         first, last = parts[0], parts[-1]
-        if abs(first.start + TURN - last.end) < _ROUND and first.shift == last.shift:
+        if (
+            abs(first.start + TURN - last.end) < ROUND
+            and first.shift == last.shift
+            and not (first.share or last.share)
+        ):
             joined = Arc(last.start - TURN, first.end, first.preload, first.towards)
             return (joined, *parts[1:-1])
     return tuple(parts)
@@ -183,11 +164,15 @@ def room(bore: Sequence[Arc], angle: float) -> float:
 
 def to_text(bore: Sequence[Arc]) -> str:
     """Text of a bore for a unit's parameter, see `from_text`."""
-    return json.dumps([astuple(arc) for arc in bore], allow_nan=False) if bore else PLAIN
+    rows = [_row(arc) for arc in bore]
+    return json.dumps(rows, allow_nan=False) if bore else PLAIN
 
 
 def from_text(text: str) -> Bore:
     """The bore of a text: "plain", or ``[[start, end, preload, towards], ...]`` in rad.
+
+    A tilting pad has a fifth number, the compliance of its pivot; a pocket has null there, and behind it
+    depth, share and fed, see `Arc`.
 
     Raises
     ------
@@ -198,8 +183,30 @@ def from_text(text: str) -> Bore:
         return ()
     try:
         rows = json.loads(text)
-        arcs = [Arc(*(float(value) for value in row)) for row in rows]
+        arcs = [_arc(*row) for row in rows]
     except (ValueError, TypeError) as error:
         allowed = f'"{PLAIN}" or [[start, end, preload, towards], ...] in rad'
         raise ValueError(f"{text[:60]!r} is no bore; allowed is {allowed}") from error
     return check(arcs)
+
+
+def _row(arc: Arc) -> list[float | bool | None]:
+    """Numbers of an arc, up to the last that is not as usual."""
+    row: list[float | bool | None] = list(astuple(arc))
+    return row if arc.share > 0.0 else row[: 4 if arc.compliance is None else 5]
+
+
+def _arc(
+    start: float,
+    end: float,
+    preload: float = 0.0,
+    towards: float = 0.0,
+    compliance: float | None = None,
+    depth: float = 0.0,
+    share: float = 0.0,
+    fed: bool = False,
+) -> Arc:
+    """An arc of the numbers of a text."""
+    place = float(start), float(end), float(preload), float(towards)
+    pivot = None if compliance is None else float(compliance)
+    return Arc(*place, pivot, float(depth), float(share), bool(fed))

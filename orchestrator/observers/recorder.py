@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 
 from fmus import port
 from orchestrator.fmi.block import Block
+from orchestrator.fmi.unit import Unit
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
+from orchestrator.master.start.journal_position import tilts
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 
@@ -61,7 +63,19 @@ _KEPT_ARRAYS = (
     "housings",
     "foundation",
     "speeds",
+    "details",
 )
+
+
+DETAILS = tuple(variable.name for variable in port.BEARING_DETAILS)
+"""Bearing outputs in the record where bearings tell them."""
+
+
+def tells_details(unit: Unit) -> bool:
+    """Whether a bearing tells `DETAILS`: one with tilting pads, or with a mass-conserving film."""
+    if DETAILS[0] not in unit.file.variables:
+        return False
+    return tilts(unit) or unit.get_string(port.BEARING_KEYS["boundary"]) == "jfo"
 
 
 class Recorder(Observer):
@@ -99,6 +113,13 @@ class Recorder(Observer):
         self._shaft = np.empty((capacity, len(SHAFT)))
         self._fields = np.empty((capacity, len(FIELDS), nodes), dtype=np.float32)
         self._speeds = np.empty(capacity)
+        self._details = np.zeros((capacity, bearings, len(DETAILS)))
+        self._details_now = np.zeros((bearings, len(DETAILS)))
+        self._detail_blocks = [
+            Block(unit, list(DETAILS), row)
+            for unit, row in zip(system.bearings, self._details_now, strict=True)
+            if tells_details(unit)
+        ]
         moving = bearings if system.housings is not None else 0
         self._housings = np.empty((capacity, moving, 8))
         self._foundation = np.empty((capacity, moving, len(port.FOUNDATION)))
@@ -159,6 +180,9 @@ class Recorder(Observer):
         self._speeds[k] = self._system.speed
         self._journals[k] = self._system.journals
         self._responses[k] = self._system.responses[:, _KEPT]
+        for block in self._detail_blocks:
+            block.get()
+        self._details[k] = self._details_now
         np.multiply(self._since, _SIGN, out=self._extremes[k])
         self._since[:] = -np.inf
         self._shaft_block.get()
@@ -211,6 +235,15 @@ class Recorder(Observer):
     def response(self, name: str) -> Array:
         """Bearing output `name`, one of `KEPT`, (records, bearings)."""
         return self._responses[: self.size, :, KEPT.index(name)]
+
+    def detail(self, name: str) -> Array:
+        """What only some films tell, one of `DETAILS`, (records, bearings); 0 of others."""
+        return self._details[: self.size, :, DETAILS.index(name)]
+
+    @property
+    def has_details(self) -> bool:
+        """Whether a bearing tells any."""
+        return bool(self._detail_blocks)
 
     def extreme(self, name: str) -> Array:
         """Extreme of one of `EXTREMES` since the record before, (records, bearings)."""

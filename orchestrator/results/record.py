@@ -16,6 +16,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
+from fmus.port.bore import from_text
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
 from orchestrator.outcome import Outcome
@@ -114,6 +115,7 @@ def make_record(
         **_shaft_variables(recorder),
         **_foundation_variables(recorder),
         **_rotation_variables(recorder, scenario),
+        **_detail_variables(recorder, train),
         **train_variables(scenario, train),
         "offset": (("bearing", "axis"), start.offsets[:, :2], _words("m", "bearing centre")),
         "offset_tilt": (
@@ -185,6 +187,24 @@ def _shaft_variables(recorder: Recorder) -> dict[str, Variable]:
     result["amplitude"] = (("time", "node"), recorder.field("amplitude"), amplitude)
     stress = _words("Pa", "normal stress from bending, both planes combined")
     result["stress"] = (("time", "node"), recorder.field("stress"), stress)
+    return result
+
+
+def _detail_variables(recorder: Recorder, train: Train) -> dict[str, Variable]:
+    """What only some films tell, where a bearing does."""
+    if not recorder.has_details:
+        return {}
+    pads = max(len(from_text(seat.bore)) for seat in train.bearings)
+    tilts = np.stack([recorder.detail(f"pad_tilt[{k}]") for k in range(1, max(pads, 1) + 1)], axis=-1)
+    tilting = any(arc.tilts for seat in train.bearings for arc in from_text(seat.bore))
+    result: dict[str, Variable] = {}
+    if tilting:
+        words = _words("rad", "tilt of the pad about its pivot, from x to y")
+        result["pad_tilt"] = (("time", "bearing", "pad"), tilts, words)
+    else:
+        for name, unit in (("full_film", "1"), ("oil_fed", "m3/s")):
+            (text,) = (v.description for v in port.BEARING_DETAILS if v.name == name)
+            result[name] = (_BEARING, recorder.detail(name), _words(unit, text))
     return result
 
 

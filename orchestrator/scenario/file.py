@@ -22,7 +22,7 @@ from orchestrator.scenario.problems import (
     unbalance_problems,
 )
 from orchestrator.scenario.scenario import Scenario
-from rotor_fmu.train.file import DATA, TrainFileError, bundled_trains, load_train
+from rotor_fmu.train.file import TrainFileError, bundled_file, load_train
 from rotor_fmu.train.toml_source import Location, Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.wording import choice
@@ -126,8 +126,9 @@ def train_of(scenario: Scenario) -> Train:
 
 def train_folder(scenario: Scenario) -> Path:
     """Folder of the files of a scenario's train."""
-    if scenario.train in bundled_trains():
-        return DATA / scenario.train
+    bundled = bundled_file(scenario.train)
+    if bundled is not None:
+        return bundled.parent
     path = scenario.folder / scenario.train
     return path if path.is_dir() else path.parent
 
@@ -231,7 +232,7 @@ def train_source(scenario: Scenario) -> str | Path:
 
 
 def _train_path(train: str, folder: Path) -> str | Path:
-    return train if train in bundled_trains() else folder / train
+    return folder / train if bundled_file(train) is None else train
 
 
 def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from orchestrator.study.children import COMMAND, Child, cores, run_children
 from orchestrator.study.comparison import Comparison, gather
 from orchestrator.study.progress import show_runs
 from rotor_fmu.recipe import rotor_recipe
-from rotor_fmu.train.file import bundled_trains
+from rotor_fmu.train.file import bundled_file
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,7 +81,7 @@ def run_depths(
         What a run says is wrong with the input.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    if scenario.train not in bundled_trains():
+    if bundled_file(scenario.train) is None:
         path = (scenario.folder / scenario.train).absolute()
         scenario = scenario.model_copy(update={"train": str(path)})
     source = folder / COMPARED

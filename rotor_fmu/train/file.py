@@ -25,6 +25,7 @@ from rotor_fmu.train.checks import (
     side_problems,
 )
 from rotor_fmu.train.coefficients import constant, table_text
+from rotor_fmu.train.derived import based
 from rotor_fmu.train.joints import Nodes, with_joints
 from rotor_fmu.train.oil import CURVE
 from rotor_fmu.train.pedestal import with_foundation
@@ -69,6 +70,14 @@ def bundled_trains() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in DATA.glob("*/train.toml")))
 
 
+def bundled_file(name: str) -> Path | None:
+    """File of a bundled train, as ``turbine``, or of one derived from it, as ``turbine/lemon``, or None."""
+    train, slash, derived = name.partition("/")
+    path = DATA / train / (f"{derived}.toml" if slash else "train.toml")
+    known = train in bundled_trains() and (derived.isidentifier() or not slash)
+    return path if known and path.is_file() else None
+
+
 def load_train(name_or_path: str | Path, raw: Mapping[str, Any] | None = None) -> Train:
     """Read a train.
 
@@ -93,12 +102,13 @@ def load_train(name_or_path: str | Path, raw: Mapping[str, Any] | None = None) -
     problems: list[str] = []
     try:
         source = read_toml(path)
+        if raw is not None:
+            source = TomlSource("")
+            source.raw = dict(raw)
+        source, path = based(source, path)
     except TomlError as error:
         problems.append(f"{path}: {error}")
         source = TomlSource("")
-    if raw is not None:
-        source = TomlSource("")
-        source.raw = dict(raw)
     shaft_file = source.raw.get("shaft")
     table = path.parent / (shaft_file if isinstance(shaft_file, str) else "shaft.csv")
     in_table: list[str] = []
@@ -120,8 +130,9 @@ def load_train(name_or_path: str | Path, raw: Mapping[str, Any] | None = None) -
 
 def train_file(name_or_path: str | Path) -> Path:
     """The file of a train, given as for `load_train`; raises TrainFileError where there is none."""
-    if str(name_or_path) in bundled_trains():
-        return DATA / str(name_or_path) / "train.toml"
+    bundled = bundled_file(str(name_or_path))
+    if bundled is not None:
+        return bundled
     path = Path(name_or_path)
     path = path / "train.toml" if path.is_dir() else path
     if not path.is_file():

@@ -19,7 +19,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from fmus import port
-from rotor_fmu.train import bore as bores
+from rotor_fmu.train.bore import BoreKeys
 from rotor_fmu.train.coefficients import Matrix, matrix
 from rotor_fmu.train.entry import Entry, Name, angle, grade, gravity_vector, positive, within
 from rotor_fmu.train.oil import OilKeys, with_viscosity
@@ -137,7 +137,7 @@ class MassEntry(Placed):
     side: Side = None
 
 
-class BearingEntry(OilKeys, Placed):
+class BearingEntry(BoreKeys, OilKeys, Placed):
     """[[bearing]]: see `rotor_fmu.train.train.BearingSeat`; z instead of a node."""
 
     diameter: float = positive(10.0, _LENGTH)
@@ -151,12 +151,6 @@ class BearingEntry(OilKeys, Placed):
     feed_pressure: float = within(0.0, 1e8, _PRESSURE, 0.0)
     feed_content: float = Field(port.default_of("feed_content"), ge=0.0, le=1.0)
     feed_flow: float = within(0.0, 10.0, "m3/s", port.default_of("feed_flow"))
-    bore: str = bores.PLAIN
-    preload: float = within(0.0, 0.95, "", 0.0)
-    offset: float | None = within(0.0, 1.0, "", None)
-    first: float = angle(0.0)
-    grooves: Annotated[bores.Rows | None, BeforeValidator(bores.groove_rows)] = None
-    arcs: Annotated[bores.Rows | None, BeforeValidator(bores.arc_rows)] = None
     layer_thickness: float = within(0.0, 0.1, "m; did you give mm?", 0.0)
     layer_modulus: float = positive(1e12, _PRESSURE, port.default_of("layer_modulus"))
     layer_poisson: float = Field(port.default_of("layer_poisson"), ge=0.0, lt=0.5)
@@ -180,7 +174,7 @@ class BearingEntry(OilKeys, Placed):
     @property
     def bore_text(self) -> str:
         """Its bore for the unit."""
-        return bores.bore_text(self.bore, self.preload, self.offset, self.first, self.grooves, self.arcs)
+        return self.text(self.clearance)
 
     @model_validator(mode="wrap")
     @classmethod

@@ -23,6 +23,7 @@ from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
+from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
@@ -61,8 +62,16 @@ RUPTURING = replace(TILTED, name="aligned", tilts=False, boundaries=("reynolds",
 """With Reynolds' condition, which holds single nodes: the axial modes do not part, and V1's solver serves."""
 
 
+POCKETED = replace(TILTED, name="aligned", tilts=False)
+"""In a bore with pockets, which do not reach over the whole width: likewise."""
+
+
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
     if float(values.get("layer.thickness", 0.0)) > 0.0:
         return Film.of(ON_LAYER, values)
-    return Film.of(SOLVER if values.get("film.boundary", "guembel") == "guembel" else RUPTURING, values)
+    parameters = BearingParameters.of(values)
+    solver = SOLVER if parameters.boundary == "guembel" else RUPTURING
+    if parameters.has_pockets:
+        solver = POCKETED
+    return (TiltingFilm if parameters.tilts else Film).of(solver, values)

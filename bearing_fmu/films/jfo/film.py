@@ -14,7 +14,7 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.jfo.network import balance
 from bearing_fmu.films.jfo.reynolds import conclude, set_up
 from bearing_fmu.films.jfo.tangent import add_jfo_tangent
-from bearing_fmu.films.jfo.workspace import ENDS, GROOVE, STEP, JfoFilm, jfo_film
+from bearing_fmu.films.jfo.workspace import ENDS, FEED, FULL, GROOVE, STEP, JfoFilm, jfo_film
 from bearing_fmu.films.tilted.workspace import STOCK
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.outputs import OUTPUTS
@@ -28,6 +28,7 @@ Floats = NDArray[np.float64]
 
 _FILLINGS = 300
 _EVEN = 1e-9
+_TOLD = 2  # of `fmus.port.BEARING_DETAILS`: share of full film, oil from the grooves
 
 
 @stage
@@ -39,7 +40,7 @@ def _solve(
     status, _ = balance(film.net)
     if status == OK:
         conclude(film, bore, reynolds, result)
-        result[FLOW] = np.sqrt(scales.slenderness) * max(film.flows[ENDS], 0.0)  # there over C R b/4
+        result[FLOW] = max(film.flows[ENDS], 0.0)
         add_jfo_tangent(film, bore, q, v, speed, result)
     return status
 
@@ -72,7 +73,7 @@ class ConservingFilm(Film):
 
     def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
         """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
-        out = np.empty(OUTPUTS)
+        out = np.zeros(OUTPUTS + _TOLD)
         status, now = self._advance(state, inputs, self.offset, dt, out)
         if status:
             raise self.failure(status, inputs, self.offset)
@@ -98,6 +99,9 @@ class ConservingFilm(Film):
             status = self._kernel(inputs, offset, out, *data)
             if jfo.time[STEP] == 0.0 and jfo.supply[1] > 0.0:
                 status = self._fill_grooves(status, inputs, offset, out, data)
+            if out.size > OUTPUTS:
+                p = self.parameters
+                out[OUTPUTS:] = jfo.flows[FULL], 0.25 * p.clearance * p.radius * p.width * jfo.flows[FEED]
             return status, jfo.now.copy()
         finally:
             bring_back(self._free, space)

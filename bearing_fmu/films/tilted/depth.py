@@ -27,6 +27,7 @@ from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
+from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
@@ -120,6 +121,8 @@ LAYERED = Solver(
 
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
+    if BearingParameters.of(values).tilts:
+        return TiltingFilm.of(SOLVER, values)
     if values.get("film.boundary") == "jfo":
         return ConservingFilm.of(CONSERVING, values)
     return Film.of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)

@@ -1,16 +1,34 @@
-"""Grooves in the bore: columns of given pressure, and what of the friction the force does not tell there."""
+"""Grooves and fed pockets of the bore: given pressure, and what of the friction the force does not tell."""
 
 from __future__ import annotations
 
 from bearing_fmu.bore.bore import Bore
+from bearing_fmu.films.tilted.rupture import TIE
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.result import ABSOLUTE, GAP
 
 
 @inner_kernel
+def _hold_pockets(film: TiltedFilm, bore: Bore, pressure: float) -> None:
+    """Tie the nodes of fed pockets."""
+    if bore is not None:
+        n, m = film.face.shape[1], film.circle.shape[2]
+        width = film.coupling.shape[0] // m
+        b = film.blocks[0]
+        for i in range(m):
+            for j in range(n):
+                if bore.fed[i] != 0.0 and abs(film.nodes[j]) <= bore.reach[0, i]:
+                    at = (i * n + j) * width + j
+                    tie = TIE * b[at]
+                    b[at] += tie
+                    film.sides[i * width + j] += tie * pressure
+
+
+@inner_kernel
 def hold_grooves(film: TiltedFilm, bore: Bore, pressure: float) -> None:
-    """Hold the columns in grooves at the feed pressure, over the ambient one."""
+    """Hold the columns in grooves and the nodes in fed pockets at the feed pressure, over the ambient one."""
+    _hold_pockets(film, bore, pressure)
     if bore is not None:
         n, m = film.face.shape[1], film.circle.shape[2]
         width = film.coupling.shape[0] // m

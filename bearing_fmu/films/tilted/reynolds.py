@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.bore import Bore, fill_gap, land, least_gap, place_rings
+from bearing_fmu.bore.bore import Bore, deepen, fill_gap, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.corners import turning_round
 from bearing_fmu.films.tilted.grooves import hold_grooves, pressure_drag
@@ -69,6 +69,7 @@ def shape_gap(film: TiltedFilm, bore: Bore, q: Floats, sigma: float, part: float
             ey = q[1] - q[2] * film.nodes[j]
             gap, t, conductance = field[GAP, j], field[OPEN, j], field[CONDUCTANCE, j]
             fill_gap(bore, side, ex, ey, ring, gap)
+            deepen(bore, side, film.nodes[j], gap)
             flow_gaps(gap[:m], sigma, rough, t, field[OPEN_1, j], field[OPEN_2, j])
             if side == 0:
                 scale = film.stiffness[j] * cell

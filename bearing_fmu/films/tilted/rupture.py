@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 ROUNDS = 60
 _SLACK = 1e-6
 # A held node is tied to its value by this multiple of its own stiffness.
-_TIE = 1e12
+TIE = 1e12
 
 
 @inner_kernel
@@ -34,7 +34,7 @@ def hold(film: TiltedFilm, ambient: float) -> None:
         for i in range(m):
             if film.held[j, i] != 0.0:
                 at = (i * n + j) * width + j
-                tie = _TIE * b[at]
+                tie = TIE * b[at]
                 b[at] += tie
                 film.sides[i * width + j] -= tie * ambient
 

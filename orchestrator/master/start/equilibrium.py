@@ -26,7 +26,9 @@ from orchestrator.master.start.journal_position import (
     carry,
     evaluate,
     least_forces,
+    set_whirl,
     tilted_positions,
+    tilts,
 )
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import offset_names, start_names
@@ -103,6 +105,7 @@ def find_start(system: System, train: Train, speed: float) -> Start:
     clearances = np.array([seat.clearance for seat in seats])
     residual = np.array([[seat.residual_tilt_x, seat.residual_tilt_y] for seat in seats])
     system.set_speed(speed)
+    set_whirl(system, 0.0)
     loads = system.rotor.get_real([port.at_bearing(i, "load") for i in range(1, len(seats) + 1)])
     if not np.all(np.isfinite(loads)):
         raise EquilibriumError(f"rotor: no target loads: {system.rotor.reason}")
@@ -120,6 +123,7 @@ def find_start(system: System, train: Train, speed: float) -> Start:
         bearing.set_real(offset_names(), offset)
     static = _equilibrium(system, shape, _measure(seats))
     line = _line(system, train.nodes)
+    _take_synchronous(system, static)
     system.rotor.set_parameters({"start.orbit": True})
     system.rotor_group.push()
     system.rotor_group.fetch()
@@ -157,7 +161,10 @@ def rest_at(system: System, seats: Sequence[BearingSeat], speed: float, position
     """
     system.rotor.set_parameters({"start.from_law": True, "start.orbit": False})
     system.set_film_speed(speed)
-    return _equilibrium(system, positions, _measure(seats))
+    set_whirl(system, 0.0)
+    found = _equilibrium(system, positions, _measure(seats))
+    _take_synchronous(system, found)
+    return found
 
 
 def apply_start(system: System, start: Start) -> None:
@@ -197,6 +204,14 @@ def begin(system: System, start: Start, nodes: int) -> Start:
     for group in system.groups:
         group.fetch()
     return replace(start, loads=loads, static_line=line, tangents=tangents)
+
+
+def _take_synchronous(system: System, positions: Array) -> None:
+    """Have bearings with tilting pads give the stiffness and damping of a motion with the rotation."""
+    if any(tilts(unit) for unit in system.bearings):
+        set_whirl(system, 1.0)
+        evaluate(system, positions)
+        _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]])
 
 
 def _rest_under(system: System, laws: Array) -> Array:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fmus import port
 from fmus.build.promises import AFFINE, ISOTROPIC
+from fmus.port.bore import from_text
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import RESPONSE, System
@@ -19,6 +20,9 @@ Array = NDArray[np.float64]
 
 BISECTIONS = 45
 """Of the eccentricity of the aligned journal; leaves 1e-13 of the clearance."""
+
+FURTHEST = 2.0
+"""Displacement over the clearance in a bore that is not plain: between tilting pads there is more room."""
 
 DIRECTIONS = 60
 """Allowed to the search of a direction; some ten are usual."""
@@ -49,6 +53,23 @@ def evaluate(system: System, positions: Array) -> None:
     system.bearing_inputs[:, 4:8] = 0.0
     system.bearing_group.push()
     system.bearing_group.fetch()
+
+
+def set_whirl(system: System, ratio: float) -> None:
+    """Say for which whirl bearings with tilting pads give stiffness and damping at the start.
+
+    Its frequency over the speed: 0 for searches of a position, 1 for motion under unbalance and for tables.
+    """
+    for unit in system.bearings:
+        if tilts(unit):
+            unit.set_parameters({port.WHIRL.name: ratio})
+
+
+def tilts(unit: Unit) -> bool:
+    """Whether a bearing has tilting pads, as far as it says."""
+    if _is_plain(unit) or port.WHIRL.name not in unit.file.variables:
+        return False
+    return any(arc.tilts for arc in from_text(unit.get_string(port.BEARING_KEYS["bore"])))
 
 
 def least_forces(system: System, forces: Array, clearances: Array) -> Array:
@@ -164,7 +185,8 @@ def _along(system: System, angle: Array, forces: Array, clearances: Array) -> tu
     """
     positions, loads = np.zeros((len(forces), 4)), np.hypot(*forces.T)
     along, down = clearances * np.sin(angle), -clearances * np.cos(angle)
-    low, high = np.zeros_like(loads), np.ones_like(loads)
+    low = np.zeros_like(loads)
+    high = np.array([1.0 if _is_plain(unit) else FURTHEST for unit in system.bearings])
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         positions[:, 0], positions[:, 1] = middle * along, middle * down

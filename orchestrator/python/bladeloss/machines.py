@@ -108,7 +108,7 @@ def bearing(depth: str = "v1", **parameters: float) -> Evaluate:
         film = depths.find(depth).make(values)
     except ValueError as error:
         raise OrchestratorError(str(error)) from None
-    names = [variable.name for variable in port.BEARING_OUTPUTS]
+    names = [variable.name for variable in (*port.BEARING_OUTPUTS, *port.BEARING_DETAILS)]
 
     def evaluate(
         q: ArrayLike, v: ArrayLike = (0.0,) * 4, speed: float = port.NOMINAL_SPEED
@@ -118,6 +118,6 @@ def bearing(depth: str = "v1", **parameters: float) -> Evaluate:
             outputs, _ = film.evaluate(film.rest(), inputs, 0.0)
         except ArithmeticError as error:
             raise OrchestratorError(str(error)) from None
-        return dict(zip(names, map(float, outputs), strict=True))
+        return dict(zip(names, map(float, outputs), strict=False))
 
     return evaluate

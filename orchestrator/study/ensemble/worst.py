@@ -24,7 +24,7 @@ from orchestrator.study.children import Child, run_children
 from orchestrator.study.ensemble.changes import TRAIN
 from orchestrator.study.ensemble.subject import Sample, ScenarioSubject
 from orchestrator.study.progress import show_runs
-from rotor_fmu.train.file import bundled_trains
+from rotor_fmu.train.file import bundled_file
 
 _TIES = ("contact_max", "force_max")
 _BESIDE = (".csv", ".toml")
@@ -68,7 +68,7 @@ def write_inputs(subject: ScenarioSubject, sample: Sample, depth: str, folder: P
                 shutil.copyfile(file, place / file.name)
         (place / "train.toml").write_text(tomlkit.dumps(raw), encoding="utf-8")
         update["train"] = "train"
-    elif scenario.train not in bundled_trains():
+    elif bundled_file(scenario.train) is None:
         update["train"] = str(Path(train_source(scenario)).absolute())
     text = scenario_toml(scenario.model_copy(update=update))
     target = folder / "scenario.toml"

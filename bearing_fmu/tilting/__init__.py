@@ -1,0 +1,1 @@
+"""Tilting pads: each with its own film, and where that holds it."""

@@ -1,0 +1,136 @@
+"""What a pad in balance gives to the bearing: its force with stiffness and damping, its motion condensed.
+
+With the axes A of the pad (d, w), Z = K + rate C of its film, S = 1/compliance of its pivot and the balance
+A'F = S w ::
+
+    dF = -(K dq + C dv + Z A dc),   dc = -(A'Z A + S)^-1 A'(K dq + C dv)
+
+In a step the rate is that of the balance.  Of small motions at a frequency it is i times this (Lund 1964),
+and K and C are the real part and, over the frequency, the imaginary one.  Solid friction adds to the force on
+the journal and not to the balance.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.kernels.compiled import inner_kernel, kernel
+from bearing_fmu.outputs import OUT_C, OUT_GAP, OUT_K, OUT_WRENCH
+
+Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_NO_SPRING = 1e-300  # but a pivot that gives way
+
+
+@inner_kernel
+def _solved(
+    held: Complex, axes: Floats, spring: float, first: complex, second: complex
+) -> tuple[complex, complex]:
+    """How a pad that `held` (4, 4) holds moves under forces along its axes."""
+    a, b, c, d = 0.0j, 0.0j, 0.0j, 0.0j
+    for i in range(2):
+        for j in range(2):
+            a += axes[0, i] * held[i, j] * axes[0, j]
+            b += axes[0, i] * held[i, j] * axes[1, j]
+            c += axes[1, i] * held[i, j] * axes[0, j]
+            d += axes[1, i] * held[i, j] * axes[1, j]
+    if a == 0.0:  # no film to hold it
+        return 0.0j, 0.0j
+    if spring == 0.0:  # no spring, but a rigid pivot
+        return first / a, 0.0j
+    d += spring
+    whole = a * d - b * c
+    return (first * d - b * second) / whole, (a * second - c * first) / whole
+
+
+@inner_kernel
+def _freed(
+    held: Complex, side: Complex, rubbing: Floats, more: float, axes: Floats, spring: float, result: Complex
+) -> None:
+    """Force (4, 4) for motions that give `side` to a pad that `held` holds; friction is `more` of it."""
+    for j in range(4):
+        first = axes[0, 0] * side[0, j] + axes[0, 1] * side[1, j]
+        second = axes[1, 0] * side[0, j] + axes[1, 1] * side[1, j]
+        d, w = _solved(held, axes, spring, first, second)
+        x, y = d * axes[0, 0] + w * axes[1, 0], d * axes[0, 1] + w * axes[1, 1]
+        for i in range(4):
+            result[i, j] = side[i, j] + more * rubbing[i, j]
+            result[i, j] -= (held[i, 0] + rubbing[i, 0]) * x + (held[i, 1] + rubbing[i, 1]) * y
+
+
+@kernel
+def add_condensed(
+    out: Floats,
+    touch: Floats,
+    axes: Floats,
+    compliance: float,
+    place: Floats,
+    rate: float,
+    grip: float,
+    frequency: float,
+    total: Floats,
+) -> None:
+    """Add a pad's wrench, stiffness and damping to those of the bearing; take away what was left of balance.
+
+    Parameters
+    ----------
+    out : ndarray, shape (58,)
+        What the film of the pad has written at its place, without solid friction.
+    touch : ndarray, shape (16,)
+        Derivative of the solid contact's wrench by the position.
+    axes : ndarray, shape (2, 2)
+        Of d and w.
+    compliance : float
+        Of the pivot, m/N.
+    place : ndarray, shape (2,)
+        d and w, m; corrected.
+    rate : float
+        Of the balance.
+    grip : float
+        Friction coefficient times sense of sliding.
+    frequency : float
+        At rest, of the small motions for which stiffness and damping hold, rad/s; 0: of a position that
+        changes slowly and a velocity that changes quickly.
+    total : ndarray, shape (58,)
+        In the order of the port; to which is added.
+    """
+    k, c = np.empty((4, 4), np.complex128), np.empty((4, 4), np.complex128)
+    held, freed, rubbing = np.empty((4, 4), np.complex128), np.empty((4, 4), np.complex128), np.empty((4, 4))
+    spring = 1.0 / compliance if compliance > 0.0 else 0.0
+    for i in range(4):
+        other, sign = (i + 1, 1.0) if i % 2 == 0 else (i - 1, -1.0)
+        for j in range(4):
+            k[i, j], c[i, j] = out[OUT_K + 4 * i + j], out[OUT_C + 4 * i + j]
+            held[i, j] = k[i, j] + rate * c[i, j]
+            # friction is the pressure of the contact turned by a right angle from x to y
+            rubbing[i, j] = sign * grip * touch[4 * other + j]
+        total[OUT_WRENCH + i] += out[OUT_WRENCH + i] - sign * grip * out[OUT_GAP + 5 + other]
+    first = axes[0, 0] * out[0] + axes[0, 1] * out[1]
+    second = axes[1, 0] * out[0] + axes[1, 1] * out[1] - spring * place[1]
+    d, w = _solved(held, axes, spring, first + 0.0j, second + 0.0j)
+    x, y = (d * axes[0, 0] + w * axes[1, 0]).real, (d * axes[0, 1] + w * axes[1, 1]).real
+    place[0] += d.real
+    place[1] += w.real
+    for i in range(4):
+        total[OUT_WRENCH + i] -= (held[i, 0].real + rubbing[i, 0]) * x + (held[i, 1].real + rubbing[i, 1]) * y
+    if rate == 0.0 and frequency > 0.0:
+        for i in range(4):
+            for j in range(4):
+                held[i, j] = k[i, j] + 1j * frequency * c[i, j]
+        _freed(held, held, rubbing, 1.0, axes, spring, freed)
+        for i in range(16):
+            total[OUT_K + i] += freed[i // 4, i % 4].real
+            total[OUT_C + i] += freed[i // 4, i % 4].imag / frequency
+    else:
+        _freed(held, k, rubbing, 1.0, axes, spring, freed)
+        for i in range(16):
+            total[OUT_K + i] += freed[i // 4, i % 4].real
+        if rate == 0.0:  # the pad follows at once, before its spring does
+            held[:] = c
+            rubbing[:] = 0.0
+            spring = _NO_SPRING if spring > 0.0 else 0.0
+        _freed(held, c, rubbing, 0.0, axes, spring, freed)
+        for i in range(16):
+            total[OUT_C + i] += freed[i // 4, i % 4].real
