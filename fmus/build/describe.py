@@ -15,7 +15,7 @@ from fmus.build.description import Identity
 from fmus.port.variable import Variable
 
 README = Path(__file__).parents[1] / "README.md"
-_INDEX = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c"}
+_INDEX = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c", "pad_tilt": "p"}
 _OF_TRAIN = re.compile(r"speed|bearing\[i\]\.(F0\.Fy|start\..*)|wheel\[j\]\.unbalance.*")
 
 _PAGE = """<!DOCTYPE html>

@@ -33,6 +33,7 @@ from fmus.port.bearing import (
     default_of,
     default_word,
 )
+from fmus.port.bore import pads_in
 from fmus.port.connector import (
     F0,
     FORCE,
@@ -127,6 +128,7 @@ __all__ = [
     "coefficient_values",
     "default_of",
     "default_word",
+    "pads_in",
     "rotor",
     "rows_of_values",
     "viscosity_index",

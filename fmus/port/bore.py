@@ -30,6 +30,7 @@ __all__ = [
     "from_text",
     "grooved",
     "lobes",
+    "pads_in",
     "pocketed",
     "room",
     "tilting",
@@ -188,6 +189,11 @@ def from_text(text: str) -> Bore:
         allowed = f'"{PLAIN}" or [[start, end, preload, towards], ...] in rad'
         raise ValueError(f"{text[:60]!r} is no bore; allowed is {allowed}") from error
     return check(arcs)
+
+
+def pads_in(text: str) -> int:
+    """Number of tilting pads of a bore's text."""
+    return sum(arc.tilts for arc in from_text(text))
 
 
 def _row(arc: Arc) -> list[float | bool | None]:

@@ -6,8 +6,8 @@ import ctypes
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
+from fmus import port
 from fmus.build.promises import BORE, BOUNDARY, MEMORYLESS, memoryless_with
-from fmus.port.bore import from_text
 from orchestrator.errors import FmuError
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.graph import Graph
@@ -92,7 +92,7 @@ def forgets(unit: Unit) -> bool:
     promises = unit.file.promises
     if MEMORYLESS in promises or not any(word.startswith(MEMORYLESS) for word in promises):
         return MEMORYLESS in promises
-    tilts = any(arc.tilts for arc in from_text(unit.get_string(BORE)))
+    tilts = port.pads_in(unit.get_string(BORE)) > 0
     return not tilts and memoryless_with(unit.get_string(BOUNDARY)) in promises
 
 

@@ -19,7 +19,7 @@ from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
-from orchestrator.master.start.journal_position import tilts
+from orchestrator.master.start.pads import tilts
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 

@@ -16,7 +16,6 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
-from fmus.port.bore import from_text
 from orchestrator.master.start.equilibrium import Start
 from orchestrator.observers.recorder import EXTREMES, Recorder
 from orchestrator.outcome import Outcome
@@ -194,11 +193,10 @@ def _detail_variables(recorder: Recorder, train: Train) -> dict[str, Variable]:
     """What only some films tell, where a bearing does."""
     if not recorder.has_details:
         return {}
-    pads = max(len(from_text(seat.bore)) for seat in train.bearings)
-    tilts = np.stack([recorder.detail(f"pad_tilt[{k}]") for k in range(1, max(pads, 1) + 1)], axis=-1)
-    tilting = any(arc.tilts for seat in train.bearings for arc in from_text(seat.bore))
+    pads = max(port.pads_in(seat.bore) for seat in train.bearings)
     result: dict[str, Variable] = {}
-    if tilting:
+    if pads:
+        tilts = np.stack([recorder.detail(f"pad_tilt[{k}]") for k in range(1, pads + 1)], axis=-1)
         words = _words("rad", "tilt of the pad about its pivot, from x to y")
         result["pad_tilt"] = (("time", "bearing", "pad"), tilts, words)
     else:

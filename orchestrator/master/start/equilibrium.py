@@ -26,10 +26,9 @@ from orchestrator.master.start.journal_position import (
     carry,
     evaluate,
     least_forces,
-    set_whirl,
     tilted_positions,
-    tilts,
 )
+from orchestrator.master.start.pads import set_whirl
 from orchestrator.master.system import System
 from orchestrator.scenario.parameters import offset_names, start_names
 from rotor_fmu.train.train import BearingSeat, Train
@@ -123,7 +122,6 @@ def find_start(system: System, train: Train, speed: float) -> Start:
         bearing.set_real(offset_names(), offset)
     static = _equilibrium(system, shape, _measure(seats))
     line = _line(system, train.nodes)
-    _take_synchronous(system, static)
     system.rotor.set_parameters({"start.orbit": True})
     system.rotor_group.push()
     system.rotor_group.fetch()
@@ -161,10 +159,7 @@ def rest_at(system: System, seats: Sequence[BearingSeat], speed: float, position
     """
     system.rotor.set_parameters({"start.from_law": True, "start.orbit": False})
     system.set_film_speed(speed)
-    set_whirl(system, 0.0)
-    found = _equilibrium(system, positions, _measure(seats))
-    _take_synchronous(system, found)
-    return found
+    return _equilibrium(system, positions, _measure(seats))
 
 
 def apply_start(system: System, start: Start) -> None:
@@ -204,14 +199,6 @@ def begin(system: System, start: Start, nodes: int) -> Start:
     for group in system.groups:
         group.fetch()
     return replace(start, loads=loads, static_line=line, tangents=tangents)
-
-
-def _take_synchronous(system: System, positions: Array) -> None:
-    """Have bearings with tilting pads give the stiffness and damping of a motion with the rotation."""
-    if any(tilts(unit) for unit in system.bearings):
-        set_whirl(system, 1.0)
-        evaluate(system, positions)
-        _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]])
 
 
 def _rest_under(system: System, laws: Array) -> Array:
@@ -278,7 +265,11 @@ def _measure(seats: Sequence[BearingSeat]) -> Array:
 
 
 def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
-    """Newton's method for rotor and films at rest; `measure` (bearings, 4) scales steps."""
+    """Newton's method for rotor and films at rest; `measure` (bearings, 4) scales steps.
+
+    In the end tilting pads give stiffness and damping of a motion with the rotation.
+    """
+    set_whirl(system, 0.0)
     for _ in range(NEWTON_STEPS):
         evaluate(system, positions)
         if not np.all(np.isfinite(system.responses)):
@@ -288,6 +279,9 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         step = _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]]) - positions
         size = np.abs(step / measure)
         if size.max() < TOLERANCE:
+            if set_whirl(system, 1.0):
+                evaluate(system, positions + step)
+                _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]])
             return positions + step
         positions = positions + step * min(1.0, REACH / size.max())
     worst = int(np.argmax(size.max(axis=1)))

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from fmus import port
 from fmus.build.promises import AFFINE, ISOTROPIC
-from fmus.port.bore import from_text
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.system import RESPONSE, System
@@ -53,23 +52,6 @@ def evaluate(system: System, positions: Array) -> None:
     system.bearing_inputs[:, 4:8] = 0.0
     system.bearing_group.push()
     system.bearing_group.fetch()
-
-
-def set_whirl(system: System, ratio: float) -> None:
-    """Say for which whirl bearings with tilting pads give stiffness and damping at the start.
-
-    Its frequency over the speed: 0 for searches of a position, 1 for motion under unbalance and for tables.
-    """
-    for unit in system.bearings:
-        if tilts(unit):
-            unit.set_parameters({port.WHIRL.name: ratio})
-
-
-def tilts(unit: Unit) -> bool:
-    """Whether a bearing has tilting pads, as far as it says."""
-    if _is_plain(unit) or port.WHIRL.name not in unit.file.variables:
-        return False
-    return any(arc.tilts for arc in from_text(unit.get_string(port.BEARING_KEYS["bore"])))
 
 
 def least_forces(system: System, forces: Array, clearances: Array) -> Array:
