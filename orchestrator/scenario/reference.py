@@ -66,7 +66,7 @@ _OWN_WORDS = {
     "z": "Axial position.",
     "name": "1 to 40 letters, digits, spaces, points, hyphens and underscores.",
     "preload": "1 - (least gap of the centred journal) / clearance, of bores of lobes; of pads at the pivot.",
-    "offset": "Share of a lobe's length at which it comes closest, of a pad its pivot; 0.5, of offset halves 1.",
+    "offset": "Share of a lobe's length at which it comes closest, of a pad its pivot; usually 0.5.",
     "first": "Angle at which a lobe, or the share of a pad, begins, from x towards y.",
     "pads": "Number of tilting pads, 4 by itself.",
     "pad_arc": "Angle that a pad covers; by itself its share of the turn less 10 degrees.",
