@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -68,24 +69,34 @@ def prepare(
             needed = needed_depths(case.scenario, case.train)
             ensure_fmus(request.fmus, case.train, needed, console)
             do_ahead(case.scenario, case.train, needed, console)
-        if note := size_note(case.scenario.reduction, 4 * case.train.nodes):
+        if note := size_note(case.scenario.reduction, 4 * case.train.nodes, request.budget):
             console.print(note, highlight=False, soft_wrap=True)
         vouchers = vouch(trusted) if request.checkpoint is not None and trusted else {}
         yield replace(case, about={**case.about, "trusted": vouchers})
 
 
-def size_note(reduction: str, size: int) -> str:
+def size_note(reduction: str, size: int, budget: float) -> str:
     """What an unreduced shaft of many degrees of freedom costs, in a line; empty where it is little.
 
     Its modes take time with the third power: 7 s of a processor of 2024 at 1116, the bundled turbine's.
+
+    Raises
+    ------
+    OrchestratorError
+        If that is longer than a call to a unit may take, `budget` [s], so that the run could not end.
     """
-    minutes = 7.0 * (size / 1116.0) ** 3 / 60.0
-    if reduction != "none" or minutes < 1.0:
+    seconds = 7.0 * (size / 1116.0) ** 3
+    if reduction != "none" or seconds < 60.0:
         return ""
-    return (
-        f"Reduction none: {size} degrees of freedom, whose modes take some {minutes:.0f} min to find; "
-        "with irs it is seconds, and `bladeloss reductions` says what that changes"
-    )
+    cost = f"{size} degrees of freedom, whose modes take some {seconds / 60.0:.0f} min to find"
+    other = "with irs it is seconds, and `bladeloss reductions` says what that changes"
+    if 0.0 < budget < seconds:
+        asked = f"--budget {math.ceil(2.0 * seconds / 60.0) * 60}"
+        raise OrchestratorError(
+            f"reduction none: {cost}, longer than a call to a unit may take (--budget {budget:g}, in s); "
+            f"allowed are another reduction ({other}), or {asked}"
+        )
+    return f"Reduction none: {cost}; {other}"
 
 
 def result_folder_of(request: RunRequest, scenario: Scenario) -> Path:

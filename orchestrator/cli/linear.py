@@ -120,8 +120,14 @@ class CampbellOptions(LinearOptions):
         bool, typer.Option("--supported", help="On linearised films instead of free-free.")
     ] = False
     count: Annotated[
-        int, typer.Option(metavar="N", min=1, max=20, help="Bending frequencies in each direction.")
-    ] = 8
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            max=20,
+            help="Bending frequencies in each direction; by default 8, or as many as there are.",
+        ),
+    ] = None
     highest: Highest = None
     formats: FigureFormats = None
 

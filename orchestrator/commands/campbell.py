@@ -22,15 +22,20 @@ if TYPE_CHECKING:
 
     from orchestrator.linear.case import LinearRequest
 
+COUNT = 8
+"""Frequencies in each direction, unless another number is asked for."""
+
 TOLERANCE = 1e-4
 """Errors up to this are written in green: no diagram shows them."""
 
 
 @one_blas_thread()
 def run(
-    request: LinearRequest, console: Console, *, supported: bool, count: int, highest: float | None
+    request: LinearRequest, console: Console, *, supported: bool, count: int | None, highest: float | None
 ) -> int:
     """Compute, print and write the diagram; returns the exit status.
+
+    Without a count the diagram has `COUNT` frequencies in each direction, or as many as all shafts have.
 
     Raises
     ------
@@ -41,34 +46,43 @@ def run(
     top = case.highest(highest)
     if supported:
         with case.over_speed() as films:
-            data = supported_data(case, films, count, top)
+            data = supported_data(case, films, count or COUNT, top)
             points = {HERTZ * hertz: films.at(HERTZ * hertz) for hertz in data["rotation"].values}
         bearings = bearing_data(points, case.train, case.films_over_speed)
         table = supported_table(case, data)
         write_results(case, [data, bearings], table, supported_figure(data, case.train))
         return 0
-    try:
-        data, iterations = free_data(case, count, top)
-    except WhirlError as error:
-        has = _bending_modes(case, count, top)
-        if has in (0, count):
-            raise OrchestratorError(f"--count {count}: {error}") from None
-        console.print(f"The shaft has {has} bending modes in each direction, not {count}.", highlight=False)
-        data, iterations = free_data(case, has, top)
+    data, iterations = _free(case, count, top)
     write_results(case, [data, iterations], free_table(case, data), free_figure(data, iterations, case.train))
     return 0
 
 
-def _bending_modes(case: LinearCase, count: int, highest: float) -> int:
-    """How many bending modes the unreduced shaft has in each direction, up to a number."""
-    while count > 0:
+def _free(case: LinearCase, asked: int | None, highest: float) -> tuple[xr.Dataset, xr.Dataset]:
+    """As `free_data`, of as many modes as there are; refused where reductions keep fewer than asked for."""
+    wanted = count = asked or COUNT
+    while True:
         try:
-            free_branches(case.shaft, case.shaft.z, [0.0, HERTZ * highest], count)
-        except WhirlError as error:
-            count = min(error.found, count - 1)
-        else:
+            found = free_data(case, count, highest)
             break
-    return count
+        except WhirlError as error:
+            fewer = min(error.found, count - 1)
+            if fewer < 1 or (asked and _has(case, count, highest)):
+                raise OrchestratorError(f"--count {count}: {error}") from None
+            count = fewer
+    if count < wanted:
+        case.console.print(
+            f"The shaft has {count} bending modes in each direction, not {wanted}.", highlight=False
+        )
+    return found
+
+
+def _has(case: LinearCase, count: int, highest: float) -> bool:
+    """Whether the unreduced shaft has that many bending modes in each direction."""
+    try:
+        free_branches(case.shaft, case.shaft.z, [0.0, HERTZ * highest], count)
+    except WhirlError:
+        return False
+    return True
 
 
 def free_table(case: LinearCase, data: xr.Dataset) -> Table:

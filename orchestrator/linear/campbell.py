@@ -16,6 +16,7 @@ from rotor_fmu.linear.analysis import (
     ReducedShaft,
     ShaftModel,
     Tracks,
+    distinct,
     follow,
     free_branches,
     irs_iterates,
@@ -35,6 +36,8 @@ STRONGEST_DAMPING = 0.95
 
 LIGHT = 0.3
 """Damping ratio up to which a mode that is none at rated speed is shown all the same."""
+
+NO_MODE = complex(np.nan, np.nan)
 
 OVERDAMPED = 6
 """Modes asked for beyond those shown, in place of overdamped ones."""
@@ -101,8 +104,8 @@ def supported_data(case: LinearCase, films: OverSpeed, count: int, highest: floa
     none at all.
     """
     rotation = np.linspace(0.0, highest, SUPPORTED_STEPS + 1)
-    speeds, missing = films.reachable(list(np.union1d(HERTZ * rotation, [case.train.speed])))
-    rated, number = speeds.index(case.train.speed), 2 * count
+    speeds, missing = films.reachable(list(distinct([*HERTZ * rotation, case.train.speed])))
+    rated, number = int(np.argmin(np.abs(np.array(speeds) - case.train.speed))), 2 * count
     last = max(int(np.searchsorted(speeds, HERTZ * highest * (1.0 + 1e-9))), rated + 1)
     tracks = follow(
         modes_on(case.shaft, films, number + OVERDAMPED), speeds[:last], rated, number + OVERDAMPED
@@ -152,7 +155,7 @@ def _whirling(tracks: Tracks, rated: int, number: int) -> tuple[NDArray, NDArray
     """
     eigenvalues = tracks.of(lambda modes: modes.eigenvalues)
     ratio = -eigenvalues.real / np.abs(eigenvalues)
-    eigenvalues = np.where(ratio < STRONGEST_DAMPING, eigenvalues, np.nan + 0j)
+    eigenvalues = np.where(ratio < STRONGEST_DAMPING, eigenvalues, NO_MODE)
     at_rated = np.flatnonzero(np.isfinite(eigenvalues[rated]))[:number]
     highest = np.nanmax(eigenvalues[:, at_rated].imag)
     known = np.isfinite(eigenvalues)
@@ -167,7 +170,7 @@ def _whirling(tracks: Tracks, rated: int, number: int) -> tuple[NDArray, NDArray
 def _matched(exact: NDArray, offered: NDArray) -> NDArray:
     """The offered eigenvalues that belong to the exact ones; NaN where there is none."""
     known = np.isfinite(exact)
-    found = np.full(exact.shape, np.nan + 0j)
+    found = np.full(exact.shape, NO_MODE)
     found[known] = matched(exact[known], offered)
     return found
 

@@ -17,6 +17,7 @@ from rotor_fmu.linear.analysis import (
     ReducedShaft,
     ShaftModel,
     Tracks,
+    distinct,
     follow,
     half_axes,
     refined,
@@ -40,7 +41,8 @@ class Response:
     """Unbalance response of a shaft at any speed; each is computed once."""
 
     def __init__(self, case: LinearCase, shaft: ShaftModel | ReducedShaft, films: OverSpeed) -> None:
-        unbalance = case.unbalance
+        unbalance, train = case.unbalance, case.train
+        self._nodes = [*(seat.node for seat in train.bearings), *(wheel.node for wheel in train.wheels)]
         self._at = cache(lambda speed: unbalance_response(shaft, speed, films.at(speed).bearings, unbalance))
 
     def at(self, speed: float) -> HarmonicResponse:
@@ -52,9 +54,10 @@ class Response:
         shape = self.at(speed).shape
         return half_axes(shape[0::4], shape[1::4])[0]
 
-    def largest(self, speed: float) -> float:
-        """Largest amplitude of the shaft [m]."""
-        return float(self.amplitudes(speed).max())
+    def watched(self, speed: float) -> Array:
+        """Amplitudes whose peaks are looked for [m]: the largest of the shaft, bearings, wheels."""
+        every = self.amplitudes(speed)
+        return np.concatenate([[every.max()], every[self._nodes]])
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ def followed(case: LinearCase, films: OverSpeed, highest: float) -> Followed:
     """Follow the modes up to a frequency of rotation [Hz]."""
     grid = np.linspace(0.0, highest, TRACKED_INTERVALS + 1)
     rated = case.train.speed if case.train.speed <= HERTZ * highest else HERTZ * highest
-    speeds, missing = films.reachable(list(np.union1d(HERTZ * grid, [rated])))
+    speeds, missing = films.reachable(list(distinct([*HERTZ * grid, rated])))
     modes_at = modes_on(case.shaft, films, MODES + OVERDAMPED)
     reference = int(np.argmin(np.abs(np.array(speeds) - rated)))
     return Followed(speeds, follow(modes_at, speeds, reference, MODES), modes_at, missing)
@@ -95,4 +98,4 @@ def resonant_speeds(case: LinearCase, response: Response, along: Followed) -> Ar
     grid = np.linspace(0.0, last, INTERVALS + 1)[1:]
     rated = [case.train.speed] if case.train.speed <= last else []
     grid = np.union1d(grid[grid >= first], rated)
-    return refined(response.largest, grid, resonances(along.tracks, along.modes_at, along.speeds))
+    return refined(response.watched, grid, resonances(along.tracks, along.modes_at, along.speeds))

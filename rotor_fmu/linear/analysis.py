@@ -28,7 +28,7 @@ from rotor_fmu.linear.free_whirl import (
 )
 from rotor_fmu.linear.harmonic import HarmonicResponse, unbalance_response, unbalance_responses
 from rotor_fmu.linear.reduction_report import ReductionReport, matched, reduction_report
-from rotor_fmu.linear.resonance import refined, resonances
+from rotor_fmu.linear.resonance import distinct, refined, resonances
 from rotor_fmu.linear.tracking import ModesAt, Tracks, follow, modal_assurance
 from rotor_fmu.linear.whirl import LinearBearings, WhirlModes, campbell, half_axes, whirl_modes
 from rotor_fmu.reduction.reduce import DEFAULT_SIZE, METHODS, Method, ReducedShaft, reduce
@@ -55,6 +55,7 @@ __all__ = [
     "WhirlModes",
     "campbell",
     "critical_speeds",
+    "distinct",
     "follow",
     "free_branches",
     "half_axes",

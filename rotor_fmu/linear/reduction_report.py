@@ -54,10 +54,8 @@ class ReductionReport:
         Of IRS, else 0.
     speeds : ndarray, (S,)
         [rad/s].
-    free : Pair of ndarray, (S, count)
-        Free-free elastic frequencies [rad/s], relative.
-    supported : Pair of complex ndarray, (S, count)
-        Eigenvalues on the bearings [1/s], relative to their modulus.
+    free, supported : Pair of complex ndarray, (S, count)
+        Eigenvalues of the free shaft's elastic modes and on the bearings [1/s], relative to their modulus.
     static : Pair of ndarray, (n_b, 2)
         Static bearing forces [N] on bearings in line, relative to the largest.
     unbalance : Pair of complex ndarray, (S, n_b, 2)
@@ -125,18 +123,17 @@ def reduction_report(
     ReductionReport
         Both results and their differences.
     """
-    free = [
-        [modes.frequency for modes in campbell(shaft, speeds, count, above=elastic_above)]
-        for shaft in (model, reduced)
-    ]
-    both = min(len(frequencies) for shaft in free for frequencies in shaft)
-    wanted, offered = (
-        [modes.eigenvalues for modes in campbell(shaft, speeds, number, bearings=bearings)]
-        for shaft, number in ((model, count), (reduced, count + 8))
-    )
-    number = min(len(values) for values in wanted + offered)
-    exact = np.array([values[np.sort(np.argsort(np.abs(values))[:number])] for values in wanted])
-    nearest = np.array([matched(a, values) for a, values in zip(exact, offered, strict=True)])
+    pairs = []
+    for held, above in ((None, elastic_above), (bearings, 0.1)):
+        wanted, offered = (
+            [modes.eigenvalues for modes in campbell(shaft, speeds, number, bearings=held, above=above)]
+            for shaft, number in ((model, count), (reduced, count + 8))
+        )
+        number = min(len(values) for values in wanted + offered)
+        exact = np.array([values[np.sort(np.argsort(np.abs(values))[:number])] for values in wanted])
+        nearest = np.array([matched(a, values) for a, values in zip(exact, offered, strict=True)])
+        pairs.append((exact, nearest))
+    (free, free_reduced), (supported, supported_reduced) = pairs
     static = [static_response(shaft, bearings)[1][:, :2] for shaft in (model, reduced)]
     forces = [
         np.array([r.wrench[:, :2] for r in unbalance_responses(shaft, speeds, bearings, unbalance)])
@@ -144,14 +141,13 @@ def reduction_report(
     ]
     largest = np.abs(forces[0]).max(axis=(1, 2), keepdims=True)
     largest[largest == 0.0] = 1.0  # no unbalance, no force, no error
-    full, own = (np.array([frequencies[:both] for frequencies in shaft]) for shaft in free)
     return ReductionReport(
         method=reduced.method,
         size=reduced.size,
         iterations=max(len(reduced.history) - 1, 0),
         speeds=np.array(speeds, dtype=np.float64),
-        free=Pair(full, own, full),
-        supported=Pair(exact, nearest, np.abs(exact)),
+        free=Pair(free, free_reduced, np.abs(free)),
+        supported=Pair(supported, supported_reduced, np.abs(supported)),
         static=Pair(static[0], static[1], np.abs(static[0]).max()),
         unbalance=Pair(forces[0], forces[1], largest),
     )

@@ -17,6 +17,12 @@ Array = NDArray[np.float64]
 AROUND = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0])
 """Points on each side of a resonance in its half widths."""
 
+NEAR = 1e-4
+"""Of the interval in which a peak lies; its height then is off by less than the square of this."""
+
+ALIKE = 1e-10
+"""Relative difference up to which speeds are the same."""
+
 SHARPEST = 1e-6
 """Least half width over speed; an undamped resonance has none."""
 
@@ -63,13 +69,15 @@ def _ahead(modes_at: ModesAt, known: WhirlModes, which: int, speed: float) -> tu
     return float(modes.frequency[best] - speed), float(modes.damping_ratio[best])
 
 
-def refined(amplitude: Callable[[float], float], grid: ArrayLike, poles: list[tuple[float, float]]) -> Array:
+def refined(
+    amplitude: Callable[[float], float | Array], grid: ArrayLike, poles: list[tuple[float, float]]
+) -> Array:
     """A grid with points closely around resonances, and the peaks of the response themselves.
 
     Parameters
     ----------
     amplitude : callable
-        The response at a speed [rad/s], positive.
+        The response at a speed [rad/s], positive; of several probes an array, whose peaks all are found.
     grid : array_like, (S,)
         Ascending speeds.
     poles : list of (float, float)
@@ -81,18 +89,32 @@ def refined(amplitude: Callable[[float], float], grid: ArrayLike, poles: list[tu
     for pole, ratio in poles:
         half = pole * max(abs(ratio), SHARPEST)
         more.append(np.concatenate([pole - half * AROUND, [pole], pole + half * AROUND]))
-    speeds = np.unique(np.concatenate(more))
+    speeds = distinct(np.concatenate(more))
     speeds = speeds[(speeds >= low) & (speeds <= high)]
+    for probe in range(np.size(amplitude(high))):
+        peaks = _peaks(lambda speed: float(np.ravel(amplitude(speed))[probe]), speeds)  # noqa: B023 (called here)
+        speeds = distinct(np.concatenate([speeds, peaks]))
+    return speeds
+
+
+def distinct(speeds: ArrayLike) -> Array:
+    """Speeds in ascending order, without those that differ by rounding, between which it would make peaks."""
+    found = np.unique(np.asarray(speeds, dtype=np.float64))
+    return found[np.diff(found, prepend=-np.inf) > ALIKE * found]
+
+
+def _peaks(amplitude: Callable[[float], float], speeds: Array) -> list[float]:
+    """Speeds between those of a grid at which a response is largest."""
     values = np.array([amplitude(speed) for speed in speeds])
-    inner = np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:])) + 1
     peaks = []
-    for k in inner:
+    for k in np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:])) + 1:
+        around = float(speeds[k - 1]), float(speeds[k + 1])
         best = scipy.optimize.minimize_scalar(
             lambda speed: -np.log(amplitude(speed)),
-            bounds=(speeds[k - 1], speeds[k + 1]),
+            bounds=around,
             method="bounded",
-            options={"xatol": 1e-9 * speeds[k]},
+            options={"xatol": max(NEAR * (around[1] - around[0]), 1e-9 * speeds[k])},
         )
         if amplitude(best.x) > values[k]:
             peaks.append(float(best.x))
-    return np.union1d(speeds, peaks)
+    return peaks

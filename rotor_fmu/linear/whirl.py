@@ -15,7 +15,6 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from rotor_fmu.foundation.foundation import Foundation
 from rotor_fmu.linear.eigenmodes import eigenmodes
 from rotor_fmu.reduction.reduce import ReducedShaft
 from rotor_fmu.shaft.matrices import ShaftModel
@@ -142,28 +141,12 @@ def system_matrices(
     shaft, speed, bearings
         As for `whirl_modes`.
     """
-    mass, damping, gyroscopic, stiffness, B = _parts(shaft)
+    mass, damping, gyroscopic, stiffness, B = _parts(shaft, on_foundation=bearings is not None)
     damping = damping + speed * gyroscopic
-    if bearings is not None and shaft.foundation is not None:
-        mass, damping, stiffness, B = _on_foundation(shaft.foundation, mass, damping, stiffness, B)
     if bearings is not None:
         stiffness = stiffness + B.T @ sp.block_diag(list(bearings.stiffness)) @ B
         damping = damping + B.T @ sp.block_diag(list(bearings.damping)) @ B
     return mass, sp.csc_array(damping), sp.csc_array(stiffness)
-
-
-def _on_foundation(
-    foundation: Foundation,
-    mass: sp.csc_array,
-    damping: sp.csc_array,
-    stiffness: sp.csc_array,
-    B: sp.csc_array,
-) -> tuple[sp.csc_array, ...]:
-    """Matrices and journals of the shaft with the foundation's modes behind its coordinates."""
-    own = np.ones(foundation.size), foundation.damping, foundation.omega**2
-    blocks = zip((mass, damping, stiffness), own, strict=True)
-    matrices = (sp.block_diag([A, sp.diags_array(values)], format="csc") for A, values in blocks)
-    return *matrices, sp.hstack([B, -sp.csc_array(foundation.shapes)], format="csc")
 
 
 def relative_motion(shaft: ShaftModel | ReducedShaft, x: NDArray) -> NDArray:
@@ -176,9 +159,21 @@ def relative_motion(shaft: ShaftModel | ReducedShaft, x: NDArray) -> NDArray:
 
 
 @lru_cache(maxsize=8)
-def _parts(shaft: ShaftModel | ReducedShaft) -> tuple[sp.csc_array, ...]:
-    """Mass, damping, gyroscopic matrix, stiffness and `journal_map`, in one sparse form."""
-    return *(sp.csc_array(A) for A in (shaft.M, shaft.D, shaft.G, shaft.K)), sp.csc_array(journal_map(shaft))
+def _parts(shaft: ShaftModel | ReducedShaft, *, on_foundation: bool) -> tuple[sp.csc_array, ...]:
+    """Mass, damping, gyroscopic matrix, stiffness and journals, in one sparse form.
+
+    With the foundation's modes behind the coordinates of the shaft, where its bearings stand on one.
+    """
+    matrices = tuple(sp.csc_array(A) for A in (shaft.M, shaft.D, shaft.G, shaft.K))
+    journals, foundation = sp.csc_array(journal_map(shaft)), shaft.foundation
+    if foundation is None or not on_foundation:
+        return *matrices, journals
+    own = np.ones(foundation.size), foundation.damping, np.zeros(foundation.size), foundation.omega**2
+    both = (
+        sp.block_diag([A, sp.diags_array(values)], format="csc")
+        for A, values in zip(matrices, own, strict=True)
+    )
+    return *both, sp.hstack([journals, -sp.csc_array(foundation.shapes)], format="csc")
 
 
 def journal_map(shaft: ShaftModel | ReducedShaft) -> sp.csr_array:

@@ -129,3 +129,22 @@ def test_a_sharp_resonance_is_found_between_speeds_of_a_grid():
     assert found[best] / (2.0 * math.pi) == pytest.approx(23.038, abs=2e-3)
     close = np.linspace(0.9999, 1.0001, 201) * found[best]
     assert max(map(amplitude, close)) <= height[best] * (1.0 + 1e-12)
+
+
+def test_speeds_that_differ_by_rounding_make_no_peak():
+    """A response that rises, with noise of its last digits, at a speed that is twice in the grid."""
+    speed = 2.0 * math.pi * 30.0
+    twin = math.nextafter(speed, 0.0)
+    assert twin != speed
+    found = refined(lambda at: at * (1.0 + 1e-15 * (at == twin)), [100.0, twin, speed, 300.0], [(speed, 0.0)])
+    assert np.diff(found).min() > 1e-10 * speed
+    values = np.array([at * (1.0 + 1e-15 * (at == twin)) for at in found])
+    assert np.all(np.diff(values) > 0.0)
+
+
+def test_peaks_of_every_probe_are_found():
+    """Of 1 / (1 + ((w - w0) / d)^2) at two places with resonances apart, broad beside the grid."""
+    places, width = np.array([123.4, 231.7]), 5.0
+    found = refined(lambda at: 1.0 / (1.0 + ((at - places) / width) ** 2), np.linspace(50.0, 300.0, 60), [])
+    for place in places:
+        assert np.abs(found - place).min() < 1e-3 * width
