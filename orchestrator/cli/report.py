@@ -26,6 +26,7 @@ REPORT_EPILOG = """\
   bladeloss report results/paper-v* --out depths.html   side by side
   bladeloss report results/paper-v1 --pdf               and to be printed
   bladeloss run small --report                          with a run
+  bladeloss report results/contact                      a study: how likely is contact
 
 [bold]Exit status[/bold]
 
@@ -39,7 +40,9 @@ REPORT_EPILOG = """\
 class ReportOptions:
     """Options of the command; see `orchestrator.commands.report.ReportRequest`."""
 
-    results: Annotated[list[Path], typer.Argument(metavar="RESULT...", help="Folders of runs.")]
+    results: Annotated[
+        list[Path], typer.Argument(metavar="RESULT...", help="Folders of runs, or of a study.")
+    ]
     out: Annotated[
         Path | None,
         typer.Option(

@@ -8,11 +8,13 @@ from pathlib import Path
 
 from rich.console import Console
 
+from orchestrator.report.ensemble.page import write_study_report
 from orchestrator.report.facts import conclusion
 from orchestrator.report.library import require_library
 from orchestrator.report.source import ReportError, load_results
 from orchestrator.report.write import FILE, write_print, write_report
 from orchestrator.results import manifest
+from orchestrator.results.ensemble.files import is_study, read_study
 from orchestrator.results.files import add
 from orchestrator.results.verdicts.limits import load_limits
 
@@ -24,7 +26,7 @@ class ReportRequest:
     Attributes
     ----------
     results : sequence of Path
-        Folders of runs.
+        Folders of runs, or that of a study.
     out : Path or None
         The page; None: ``report.html`` in the folder of a single run, or else in the current one.
     bearing : str or None
@@ -60,6 +62,8 @@ def run(request: ReportRequest, console: Console) -> int:
         Results that are none, limits that cannot be read, no plotting library.
     """
     require_library()
+    if any(is_study(path) for path in request.results):
+        return _of_a_study(request, console)
     if request.file.is_dir():
         raise ReportError(f"{request.file}: is a folder; --out takes the file of the page, such as {FILE}")
     limits = None if request.limits is None else load_limits(request.limits)
@@ -84,4 +88,18 @@ def run(request: ReportRequest, console: Console) -> int:
         f"{file} ({file.stat().st_size / 1e6:.1f} MB)" for file in (path, paper)[: 1 + request.pdf]
     )
     console.print(f"\nReport in {said}", highlight=False, markup=False, soft_wrap=True)
+    return 0
+
+
+def _of_a_study(request: ReportRequest, console: Console) -> int:
+    """Write the page of a study."""
+    folder = request.results[0]
+    given = {"--bearing": request.bearing, "--limits": request.limits, "--pdf": request.pdf or None}
+    others = [name for name, value in given.items() if value is not None]
+    if others or len(request.results) > 1:
+        what = f"{', '.join(others)} is" if others else "several are"
+        raise ReportError(f"{folder}: a study, of which {what} not shown; allowed is one, with --out")
+    path = write_study_report(read_study(folder), folder, request.file)
+    said = f"Report in {path} ({path.stat().st_size / 1e6:.1f} MB)"
+    console.print(said, highlight=False, markup=False, soft_wrap=True)
     return 0

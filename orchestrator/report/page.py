@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 
-from orchestrator.report.encode import squeezed, to_json
+from orchestrator.report.document import document
 from orchestrator.report.facts import (
     BEARING_HEADS,
     VERDICT_HEADS,
@@ -16,14 +15,12 @@ from orchestrator.report.facts import (
     verdict_cells,
 )
 from orchestrator.report.html import Markup, dot, joined, row, table, tag, void
-from orchestrator.report.library import require_library
 from orchestrator.report.panels.orbits import LEGEND
 from orchestrator.report.panels.panel import Panel
 from orchestrator.report.source import Result
 from orchestrator.results.verdicts.conclusion import Action
 from orchestrator.results.verdicts.verdict import Verdict, worst
 
-_HERE = Path(__file__).parent
 _LOOKS = {Action.TRIP: "beyond", Action.INSPECT: "close", Action.TOLERABLE: "within", Action.UNKNOWN: "none"}
 SECTIONS = {
     "orbits": ("Orbits in the clearance", ""),
@@ -71,28 +68,10 @@ def page(results: Sequence[Result], panels: Sequence[Panel], bearing: str) -> st
     """
     title = str(results[0].record.attrs.get("title", "")) or "Results"
     ids = {f"p{k}": panel for k, panel in enumerate(panels)}
-    content = to_json({key: panel.data() for key, panel in ids.items()})
     body = joined(
         [_header(title, results), _nav(results, ids, bearing), _main(results, ids), _footer(results)]
     )
-    parts = [
-        "<!doctype html>",
-        '<html lang="en">',
-        joined([
-            Markup("<head>"),
-            void("meta", charset="utf-8"),
-            void("meta", name="viewport", content="width=device-width, initial-scale=1"),
-            tag("title", f"{title} - bladeloss"),
-            Markup(f"<style>{(_HERE / 'page.css').read_text(encoding='utf-8')}</style>"),
-            Markup("</head>"),
-        ]),
-        tag("body", body,
-            Markup(f'<script type="text/plain" id="data">{squeezed(content)}</script>'),
-            Markup(f'<script type="text/plain" id="library">{squeezed(require_library()())}</script>'),
-            Markup(f"<script>{(_HERE / 'page.js').read_text(encoding='utf-8')}</script>")),
-        "</html>",
-    ]  # fmt: skip
-    return "\n".join(parts) + "\n"
+    return document(title, body, ids)
 
 
 def _header(title: str, results: Sequence[Result]) -> Markup:
@@ -156,7 +135,7 @@ def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: 
         legend = (tag("div", *entries, klass="legend soft"),)
     elif several:
         legend = (tag("div", *(tag("span", _key(r), r.name) for r in results), klass="legend soft"),)
-    boxes = [_box(name, panel) for name, panel in own.items()]
+    boxes = [box(name, panel) for name, panel in own.items()]
     count = f"--count:{len(results)}"
     about = (tag("p", text, klass="soft"),) if text else ()
     return tag(
@@ -168,7 +147,8 @@ def _swatch(colour: str) -> Markup:
     return tag("span", klass="key", style=f"border-color:{colour}")
 
 
-def _box(name: str, panel: Panel) -> Markup:
+def box(name: str, panel: Panel) -> Markup:
+    """The place of a figure, with its title and its slider."""
     plot = tag("div", klass="plot", style=f"height:{panel.height}px")
     slider: tuple[Markup, ...] = ()
     if panel.moving:

@@ -46,17 +46,18 @@ def write_report(results: Sequence[Result], path: Path, bearing: str | None = No
     NotWrittenError
         When it cannot be written; an earlier one stays as it is.
     """
-    return _write_whole(path, lambda: report_text(results, bearing).encode())
+    return write_whole(path, lambda: report_text(results, bearing).encode())
 
 
 def write_print(results: Sequence[Result], path: Path, bearing: str | None = None) -> Path:
     """Write the same to be printed, as a PDF; raises as `write_report`."""
     from orchestrator.report.print import printed  # matplotlib loads for half a second
 
-    return _write_whole(path, lambda: printed(results, shown_bearing(results, bearing)))
+    return write_whole(path, lambda: printed(results, shown_bearing(results, bearing)))
 
 
-def _write_whole(path: Path, make: Callable[[], bytes]) -> Path:
+def write_whole(path: Path, make: Callable[[], bytes]) -> Path:
+    """Write a file signed at its end, whole or not at all; raises as `write_report`."""
     if (path.exists() or path.is_symlink()) and not _as_written(path):
         raise ReportError(
             f"{path}: is no report, or was changed since, and is left as it is; --out takes another file"

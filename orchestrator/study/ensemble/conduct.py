@@ -16,7 +16,7 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import ensure_fmus, fmu_folder
 from orchestrator.fmi.trust import require_trust
 from orchestrator.fmi.watchdog import BUDGET
-from orchestrator.results.ensemble.files import DATA, RUNS, SAMPLES, SIGN, TABLE
+from orchestrator.results.ensemble.files import DATA, RUNS, SAMPLES, SIGN, TABLE, name_of_run
 from orchestrator.results.folder import ResultFolderError, check_writable
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.record_files import netcdf
@@ -132,10 +132,11 @@ def conduct(file: StudyFile, plan: Plan, means: Means) -> xr.Dataset:
             raise
         data = dataset_of(plan.study, plan.samples, Rows(plan.depths, rows_of(digests, store)))
         data = with_sensitivities(plan.study, plan.samples, data)
+        runs = worst_runs(data, plan.study.keep.rank, plan.study.keep.worst)
+        data = data.assign_attrs(worst_runs=" ".join(name_of_run(*run) for run in runs))
         _write(folder / DATA, netcdf(data))
         _write(folder / TABLE, table_of(data).encode())
-        if isinstance(plan.subject, ScenarioSubject) and plan.study.keep.worst:
-            runs = worst_runs(data, plan.study.keep.rank, plan.study.keep.worst)
+        if isinstance(plan.subject, ScenarioSubject) and runs:
             again = Again(folder, means.jobs or cores(), means.trust, means.console)
             again.carry_out(plan.subject, plan.samples, runs)
     return data

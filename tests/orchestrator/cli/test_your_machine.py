@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
-from orchestrator.report import page as page_of_report
+from orchestrator.report import document
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "orchestrator" / "YOUR_MACHINE.md"
@@ -22,7 +22,7 @@ def commands():
 
 def test_the_commands_of_the_page_lead_to_a_report(once, tmp_path, monkeypatch):
     """With FMUs from a folder of the tests, and shorter runs; figures are drawn elsewhere."""
-    monkeypatch.setattr(page_of_report, "require_library", lambda: lambda: "library")
+    monkeypatch.setattr(document, "require_library", lambda: lambda: "library")
     monkeypatch.setattr("orchestrator.report.print.figures_of", lambda *_, **__: iter(()))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tests").symlink_to(ROOT / "tests")

@@ -10,7 +10,7 @@ import pytest
 
 from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
-from orchestrator.report import page as page_of_report
+from orchestrator.report import document
 
 PAGE = Path(bladeloss.__file__).parents[1] / "README.md"
 SHORT = {"depth": "v3", "end": 0.01, "event": None}
@@ -29,7 +29,7 @@ def test_the_examples_of_the_page_run_in_their_order(monkeypatch, capsys, once, 
     folder = once("door", lambda folder: None)
     for module in ("runs", "machines"):
         monkeypatch.setattr(f"bladeloss.{module}.fmu_folder", lambda: folder)
-    monkeypatch.setattr(page_of_report, "require_library", lambda: lambda: "library")
+    monkeypatch.setattr(document, "require_library", lambda: lambda: "library")
     examples = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     assert len(examples) == 6
     scope = {}

@@ -67,7 +67,7 @@ def records():
 def pages(records):
     """One result and two side by side; the library, which is large, in a word."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("orchestrator.report.page.require_library", lambda: lambda: "library")
+        patch.setattr("orchestrator.report.document.require_library", lambda: lambda: "library")
         return [report_text(results_of(records[:count])) for count in (1, 2)]
 
 
@@ -181,7 +181,7 @@ def test_the_worst_bearing_opens_the_page_unless_one_is_named(records):
 
 def test_a_title_cannot_become_markup(records):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("orchestrator.report.page.require_library", lambda: lambda: "library")
+        patch.setattr("orchestrator.report.document.require_library", lambda: lambda: "library")
         nasty = records[0].isel(bearing=[1]).assign_attrs(title="<script>alert(1)</script> & 'more'")
         text, _, page = read(report_text(results_of([nasty])))
     assert "<script>alert(1)</script> & 'more'" in text
@@ -239,7 +239,7 @@ def test_the_command_writes_the_page_into_the_folder_of_the_run(folder):
 )
 def test_wrong_input_is_said_in_a_line_and_nothing_is_written(folder, tmp_path, monkeypatch, arguments, text):
     monkeypatch.setattr("orchestrator.commands.report.require_library", lambda: None)
-    monkeypatch.setattr("orchestrator.report.page.require_library", lambda: lambda: "library")
+    monkeypatch.setattr("orchestrator.report.document.require_library", lambda: lambda: "library")
     before = sorted(folder.iterdir())
     done = CliRunner().invoke(app, ["report", *(part.format(tmp=tmp_path) for part in arguments)])
     assert done.exit_code == 2
