@@ -1,4 +1,4 @@
-"""How a unit fails: with a code and a reason, never with an exception that crosses the C boundary."""
+"""How a unit fails: with a code and a reason; the exception that crosses the C boundary is the loader's."""
 
 from __future__ import annotations
 

@@ -203,22 +203,55 @@ def _holds(folder: Path, package: str, digest: str, names: list[str]) -> bool:
     return found == names and _digest(place, names) == digest
 
 
+def for_log(unit: Fmi2Slave, text: str) -> str:
+    """Return a text of a unit as it may be logged: it passes through printf on its way out."""
+    return f"{unit.instance_name}: {text}".replace("%", "%%")
+
+
+class Refusal(Exception):
+    """A call that fails: the one exception that may leave a callback, where FMI wants an error.
+
+    pythonfmu's library (0.7.0, PySlaveInstance.cpp) makes ``fmi2Fatal`` of any exception, logs its
+    `repr`, and in ``handle_py_exception`` gives up its references to the unit, the unit's class and log,
+    which it uses again until ``fmi2FreeInstance`` gives them up once more.  So it is given one more of each.
+
+    The reason takes along what waits for the log: no host is to be called with an error set.
+
+    Parameters
+    ----------
+    reason : str
+        For the log.
+    unit : Fmi2Slave
+        The unit that refuses.
+    """
+
+    def __init__(self, reason: str, unit: Fmi2Slave) -> None:
+        said = [message.msg for message in unit.log_queue]
+        unit.log_queue.clear()
+        super().__init__("\n".join([*said, for_log(unit, reason)]))
+        for each in (unit, type(unit), unit.log_queue):
+            ctypes.pythonapi.Py_IncRef(ctypes.py_object(each))
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
 def _refusing(reason: str) -> type[Fmi2Slave]:
     """Return a slave that can be instantiated and asked, but never steps."""
 
-    class Refusal(Fmi2Slave):
+    class Refusing(Fmi2Slave):
         def enter_initialization_mode(self) -> None:
             self._say(Fmi2Status.warning)  # the first that a host asks are the outputs of the start
 
         def exit_initialization_mode(self) -> None:
-            self._say(Fmi2Status.error)
+            raise Refusal(f"FMU refused: {reason}", self)
 
         def do_step(self, current_time: float, step_size: float) -> bool:
             self._say(Fmi2Status.discard)
             return False
 
         def _say(self, status: Fmi2Status) -> None:
-            self.log(f"{self.instance_name}: FMU refused: {reason}".replace("%", "%%"), status)
+            self.log(for_log(self, f"FMU refused: {reason}"), status)
 
         def get_real(self, vrs: list[int]) -> list[float]:
             return [math.nan] * len(vrs)
@@ -237,4 +270,4 @@ def _refusing(reason: str) -> type[Fmi2Slave]:
 
         set_real = set_integer = set_boolean = set_string = _ignore
 
-    return Refusal
+    return Refusing

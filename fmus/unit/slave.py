@@ -10,12 +10,12 @@ they are computed on get after a set.  From then on they change in ``do_step`` o
 
 Failure
 -------
-No exception leaves a callback, for pythonfmu makes ``fmi2Fatal`` of it and lets go
-of the unit, so that the host crashes when it frees the instance.  A bad parameter or
-a failed start is logged and kept: the outputs are NaN, and every ``do_step`` returns
-``fmi2Discard`` with the reason in the log.  A failed step is ``fmi2Discard``, too; it
-leaves the unit as it was and may be repeated with other inputs or a smaller step.
-The output `failure` says of which kind the failure is.
+A failed step is ``fmi2Discard`` with the reason in the log; it leaves the unit as it was
+and may be repeated with other inputs or a smaller step.  A bad parameter or a failed
+start is logged and kept: the outputs are NaN until it is corrected.  An initialization
+that ends without a start, and a call that FMI forbids, raise `fmus.unit.loader.Refusal`:
+pythonfmu makes ``fmi2Fatal`` of it.  Whoever goes on all the same finds every ``do_step``
+refused.  The output `failure` says of which kind the failure is.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ from fmus.port.variable import Kind
 from fmus.unit.failure import Problem, UnitError, attempt
 from fmus.unit.hooks import Hooks
 from fmus.unit.layout import Layout
+from fmus.unit.loader import Refusal, for_log
 from fmus.unit.state import UnitState, unpack
 from fmus.unit.values import Values
 
@@ -85,8 +86,9 @@ class UnitSlave(Hooks, Fmi2Slave):
         """Freeze the start: from here on outputs change in `do_step` only."""
         self._solve()
         self._mode = STEP
-        if self._failure:  # pythonfmu can return OK only
-            self._report(f"initialization ended without a start: {self._failure}", Fmi2Status.error)
+        if self._failure:
+            self.log_queue.clear()  # it says the same
+            raise Refusal(f"initialization ended without a start: {self._failure}", self)
 
     def terminate(self) -> None:
         """End the simulation."""
@@ -167,9 +169,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         try:
             return self._values.read(vrs, block)
         except IndexError:
-            self._misuse = self._misuse or f"a value reference among {vrs} is unknown"
-            self._report(self._misuse, Fmi2Status.error)
-            return [math.nan] * len(vrs)
+            raise self._unknown(vrs) from None
 
     def get_integer(self, vrs: list[int]) -> list[int]:
         """Return Integer values."""
@@ -182,7 +182,10 @@ class UnitSlave(Hooks, Fmi2Slave):
     def get_string(self, vrs: list[int]) -> list[str]:
         """Return String values, computed first where that is due."""
         self._update(vrs, None)
-        return [self.strings.get(i, "") for i in vrs]
+        try:
+            return [self.strings[i] for i in vrs]
+        except KeyError:
+            raise self._unknown(vrs) from None
 
     def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
         """Set inputs, and parameters before the end of initialization, behind it those that are tunable."""
@@ -198,16 +201,16 @@ class UnitSlave(Hooks, Fmi2Slave):
 
     def set_string(self, vrs: list[int], values: Sequence[str]) -> None:
         """Set String parameters."""
-        if self._accepts(vrs, "String"):
-            self.strings.update(zip(vrs, values, strict=True))
+        self._check_settable(vrs, "String")
+        self.strings.update(zip(vrs, values, strict=True))
 
     def _write(self, kind: Kind, vrs: list[int], values: Sequence[float]) -> None:
         block = self._values.block(vrs)
-        if self._accepts(vrs, kind, block):
-            self._values.write(vrs, values, block)
+        self._check_settable(vrs, kind, block)
+        self._values.write(vrs, values, block)
 
-    def _accepts(self, vrs: list[int], kind: Kind, block: slice | None = None) -> bool:
-        """Tell whether FMI allows to set these now; if not, no step will follow."""
+    def _check_settable(self, vrs: list[int], kind: Kind, block: slice | None = None) -> None:
+        """Refuse what FMI does not allow to be set now."""
         if self._mode == STEP:
             end = max(vrs, default=-1) + 1 if block is None else block.stop
             allowed = kind == "Real" and end <= self.layout.inputs.stop
@@ -219,9 +222,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         if not allowed:
             names = [v.name for i, v in enumerate(self.layout.variables) if i in set(vrs)]
             when = "after initialization" if self._mode == STEP else "at all, or not with this type"
-            self._misuse = self._misuse or f"{', '.join(names[:3]) or vrs} cannot be set {when}"
-            self._report(self._misuse, Fmi2Status.error)
-        return allowed
+            raise self._forbidden(f"{', '.join(names[:3]) or vrs} cannot be set {when}")
 
     def _update(self, vrs: list[int], block: slice | None) -> None:
         if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
@@ -279,6 +280,13 @@ class UnitSlave(Hooks, Fmi2Slave):
     def _fmu_state_from_bytes(state: bytes) -> bytes:
         return state  # unpacked where it is restored, where a problem can be reported
 
+    def _forbidden(self, reason: str) -> Refusal:
+        """Return the refusal of a call that FMI forbids, after which no step will follow."""
+        self._misuse = self._misuse or reason
+        return Refusal(reason, self)
+
+    def _unknown(self, vrs: list[int]) -> Refusal:
+        return self._forbidden(f"a value reference among {vrs} is unknown")
+
     def _report(self, message: str, status: Fmi2Status = Fmi2Status.discard) -> None:
-        # the text passes through printf on its way out
-        self.log(f"{self.instance_name}: {message}".replace("%", "%%"), status)
+        self.log(for_log(self, message), status)

@@ -202,7 +202,16 @@ class Unit:
         self._call("enterInitializationMode")
 
     def exit_initialization(self) -> None:
-        """Leave Initialization Mode: the state is frozen, steps may follow."""
+        """Leave Initialization Mode: the state is frozen, steps may follow.
+
+        Raises
+        ------
+        UnitError
+            When there is no start.  A unit that says so by its output `failure` is asked before, for in
+            its status pythonfmu knows nothing less than fatal, after which it may not be asked.
+        """
+        if said := failure_of(self.file.variables, self._slave):
+            raise UnitError(self.name, "start", Status.DISCARD, self.reason, said)
         self._call("exitInitializationMode")
         self._initialized = True
 

@@ -1,9 +1,10 @@
 /* A host without Python of its own, as fmusim and OMSimulator are: one instance of an FMU 2.0 from its library.
  *
- * native_host LIBRARY RESOURCES_URI GUID STEPS
+ * native_host LIBRARY RESOURCES_URI GUID STEPS [REFERENCE VALUE [late]]
  *
- * libpython is in the process (LD_PRELOAD), as for any such host. Ends with 0, or with the number of the call
- * that did not return fmi2OK; a crash at the end of the process ends it by a signal.
+ * libpython is in the process (LD_PRELOAD), as for any such host. Sets a Real before initialization, or late.
+ * Ends with 0, or with the number of the first call that did not return fmi2OK, after which the instance is freed
+ * all the same, as many tools do; a crash at the end of the process ends it by a signal.
  */
 #include <dlfcn.h>
 #include <stdarg.h>
@@ -41,9 +42,39 @@ static void *symbol(void *library, const char *name)
     return found;
 }
 
+typedef struct {
+    Component unit;
+    int (*setup)(Component, int, double, double, int, double);
+    int (*enter)(Component);
+    int (*leave)(Component);
+    int (*set)(Component, const unsigned *, size_t, const double *);
+    int (*step)(Component, double, double, int);
+    int (*terminate)(Component);
+} Calls;
+
+static int drive(const Calls *c, int steps, int count, char **set)
+{
+    unsigned reference = count > 0 ? (unsigned)atoi(set[0]) : 0;
+    double value = count > 1 ? atof(set[1]) : 0.0;
+    if (count == 2 && c->set(c->unit, &reference, 1, &value))
+        return 7;
+    if (c->setup(c->unit, 0, 0.0, 0.0, 0, 0.0))
+        return 2;
+    if (c->enter(c->unit))
+        return 3;
+    if (c->leave(c->unit))
+        return 4;
+    if (count == 3 && c->set(c->unit, &reference, 1, &value))
+        return 7;
+    for (int i = 0; i < steps; i++)
+        if (c->step(c->unit, 1e-4 * i, 1e-4, 1))
+            return 5;
+    return c->terminate(c->unit) ? 6 : 0;
+}
+
 int main(int count, char **given)
 {
-    if (count != 5)
+    if (count < 5)
         return 91;
     void *library = dlopen(given[1], RTLD_NOW | RTLD_LOCAL);
     if (!library) {
@@ -52,29 +83,21 @@ int main(int count, char **given)
     }
     Component (*instantiate)(const char *, int, const char *, const char *, const Callbacks *, int, int) =
         symbol(library, "fmi2Instantiate");
-    int (*setup)(Component, int, double, double, int, double) = symbol(library, "fmi2SetupExperiment");
-    int (*enter)(Component) = symbol(library, "fmi2EnterInitializationMode");
-    int (*leave)(Component) = symbol(library, "fmi2ExitInitializationMode");
-    int (*step)(Component, double, double, int) = symbol(library, "fmi2DoStep");
-    int (*terminate)(Component) = symbol(library, "fmi2Terminate");
     void (*release)(Component) = symbol(library, "fmi2FreeInstance");
+    Calls calls = {NULL,
+                   symbol(library, "fmi2SetupExperiment"),
+                   symbol(library, "fmi2EnterInitializationMode"),
+                   symbol(library, "fmi2ExitInitializationMode"),
+                   symbol(library, "fmi2SetReal"),
+                   symbol(library, "fmi2DoStep"),
+                   symbol(library, "fmi2Terminate")};
 
     static Callbacks callbacks = {say, calloc, free, NULL, NULL};
-    Component unit = instantiate("unit", 1, given[3], given[2], &callbacks, 0, 1);
-    if (!unit)
+    calls.unit = instantiate("unit", 1, given[3], given[2], &callbacks, 0, 1);
+    if (!calls.unit)
         return 1;
-    if (setup(unit, 0, 0.0, 0.0, 0, 0.0))
-        return 2;
-    if (enter(unit))
-        return 3;
-    if (leave(unit))
-        return 4;
-    for (int i = 0; i < atoi(given[4]); i++)
-        if (step(unit, 1e-4 * i, 1e-4, 1))
-            return 5;
-    if (terminate(unit))
-        return 6;
-    release(unit);
+    int ended = drive(&calls, atoi(given[4]), count - 5, given + 5);
+    release(calls.unit);
     dlclose(library);
-    return 0;
+    return ended;
 }

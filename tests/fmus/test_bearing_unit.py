@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from bearing_fmu import depths
 from bearing_fmu.film import make_film
@@ -73,8 +74,9 @@ def test_the_law_gives_the_wrench_at_the_state(bearing):
     ("name", "value"),
     [("clearance", -1e-4), ("viscosity", 0.0), ("diameter", math.nan), ("film.columns", 3)],
 )
-def test_a_bad_parameter_is_a_discard_with_the_reason(bearing, name, value):
-    bearing.start({name: value})
+def test_a_bad_parameter_is_an_error_with_the_reason(bearing, name, value):
+    with pytest.raises(FMICallException, match="fmi2ExitInitializationMode"):
+        bearing.start({name: value})
     assert not bearing.step(0.0, 1e-4)
     assert name.rpartition(".")[2] in bearing.said
 

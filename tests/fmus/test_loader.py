@@ -11,6 +11,7 @@ from fmus.build.builder import write
 from tests.faults import fault
 from tests.fmus.conftest import spring_recipe
 
+FATAL = 4
 REPOSITORY = Path(__file__).parents[2]
 
 _SCRIPT = """
@@ -24,6 +25,7 @@ sys.path[:0] = case["path"]
 for name in case["loaded"]:
     __import__(name)
 sys.path.append(case["tests"])
+from fmpy.fmi1 import FMICallException
 from host import Host
 sys.path.remove(case["tests"])
 found = {}
@@ -31,8 +33,13 @@ for fmu in case["fmus"]:
     host = Host(fmu, Path(case["folder"]) / Path(fmu).stem)
     instance = host.open()
     instance.set({"stiffness": 1e6})
-    instance.start()
-    found[fmu] = {"F": repr(instance.get("F")), "step": instance.step(0.0, 1e-3), "said": instance.said}
+    try:
+        instance.start()
+        status = 0
+    except FMICallException as error:
+        status = error.status
+    found[fmu] = {"start": status, "F": repr(instance.get("F")), "step": instance.step(0.0, 1e-3)}
+    found[fmu]["said"] = instance.said
     instance.slave.freeInstance()
 found["from"] = {p: list(sys.modules[p].__path__)[0] for p in ("fmus", "spring_unit") if p in sys.modules}
 print(json.dumps(found))
@@ -64,7 +71,7 @@ def run(tmp_path, monkeypatch):
 
 def test_a_bare_host_keeps_the_packages_in_the_cache_folder(run, spring_fmu, tmp_path):
     (first,), places = run(spring_fmu)
-    assert first == {"F": "-2000.0", "step": True, "said": ""}
+    assert first == {"start": 0, "F": "-2000.0", "step": True, "said": ""}
     cache = tmp_path / "cache" / "bladeloss"
     assert {place.parent.parent for place in places.values()} == {cache}
     assert sorted(p.name.split("-")[0] for p in cache.iterdir()) == ["fmus", "spring_unit"]
@@ -140,7 +147,7 @@ def test_a_host_with_other_sources_not_yet_loaded_does_not_disturb(run, spring_f
 
 def test_other_sources_already_loaded_refuse_the_fmu_with_the_reason(run, spring_fmu, tmp_path):
     (found,), _ = run(spring_fmu, path=[other_fmus(tmp_path)], loaded=["fmus"])
-    assert found["F"] == "nan" and not found["step"]
+    assert found["F"] == "nan" and found["start"] == FATAL and not found["step"]
     assert "FMU refused: the package fmus loaded in this process" in found["said"]
     assert "differs from the one this FMU was built from" in found["said"]
 

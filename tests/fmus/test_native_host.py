@@ -9,13 +9,13 @@ import os
 import shutil
 import subprocess
 import sys
-import sysconfig
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
 from bearing_fmu import depths
+from tests.native import environment, libpython
 
 SOURCE = Path(__file__).with_name("native_host.c")
 REPOSITORY = Path(__file__).parents[2]
@@ -49,38 +49,45 @@ def native_host(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def libpython():
-    """The shared library of this very Python; a native host needs it in the process."""
-    names = [sysconfig.get_config_var(key) for key in ("INSTSONAME", "LDLIBRARY")]
-    folders = [sysconfig.get_config_var(key) for key in ("LIBDIR", "LIBPL")]
-    for name in filter(None, names):
-        for folder in filter(None, folders):
-            if ".so" in name and (path := Path(folder) / name).is_file():
-                return path
-    pytest.skip("this Python is built without a shared libpython")
-
-
-@pytest.fixture(scope="module")
-def start_and_end(native_host, libpython, hosts):
+def start_and_end(native_host, hosts):
     """Run a unit in a process of its own, from its start to its end; returns how that ended."""
-    installed = [path for path in sys.path if path.endswith("site-packages")]
-    environment = os.environ | {
-        "LD_PRELOAD": str(libpython),
-        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
-        "OPENBLAS_NUM_THREADS": "1",
-    }
+    if libpython() is None:
+        pytest.skip("this Python is built without a shared libpython")
 
-    def run(name):
+    def run(name, *settings):
         host = hosts[name]
         library = host.folder / "binaries" / "linux64" / f"{host.description.modelName}.so"
         resources = (host.folder / "resources").as_uri()
-        command = [native_host, library, resources, host.description.guid, "3"]
-        paths = [str(REPOSITORY), *installed] if name in AT_HAND else installed
-        given = environment | {"PYTHONPATH": os.pathsep.join(paths)}
+        command = [native_host, library, resources, host.description.guid, "3", *settings]
+        given = environment(*[str(REPOSITORY)] * (name in AT_HAND))
         done = subprocess.run(command, env=given, capture_output=True, text=True, check=False)
         return done.returncode, done.stderr[-500:]
 
     return run
+
+
+EXIT_INITIALIZATION, STEP, SET = 4, 5, 7  # what the host ends with
+
+
+@pytest.mark.parametrize(
+    ("variable", "value", "when", "end", "said"),
+    [
+        ("clearance", "-1.0", (), EXIT_INITIALIZATION, "ended without a start: bearing parameter clearance"),
+        ("clearance", "1e-3", ("late",), SET, "clearance cannot be set after initialization"),
+        ("wrench.Fx", "1.0", ("late",), SET, "wrench.Fx cannot be set after initialization"),
+        ("99999", "1.0", (), SET, "cannot be set at all"),
+        ("journal.y", "1.0", ("late",), STEP, "refused"),
+    ],
+)
+def test_what_fails_is_no_ok_and_crashes_no_native_host(
+    start_and_end, hosts, variable, value, when, end, said
+):
+    """Not in the host that frees the instance of a failed call either, of which pythonfmu lets go twice."""
+    references = {v.name: v.valueReference for v in hosts["bearing_v2.fmu"].description.modelVariables}
+    settings = (str(references.get(variable, variable)), value, *when)
+    found, log = start_and_end("bearing_v2.fmu", *settings)
+    assert found == end, log
+    assert said in log
 
 
 def check(start_and_end, name, times):

@@ -7,6 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from fmus import port
 from rotor_fmu.recipe import rotor_recipe
@@ -192,8 +193,9 @@ def test_a_later_start_goes_on_with_the_angle(host, small_train):
         ({"start.from_law": 1}, "rigid-body"),
     ],
 )
-def test_a_bad_start_is_a_discard_with_the_reason(unit, values, said):
-    unit.start(values)
+def test_a_bad_start_is_an_error_with_the_reason(unit, values, said):
+    with pytest.raises(FMICallException, match="fmi2ExitInitializationMode"):
+        unit.start(values)
     assert not unit.step(0.0, H)
     assert said in unit.said
 

@@ -1,5 +1,6 @@
 """Other tools as subprocesses, so that a crash of one is a failed test and no more."""
 
+import shutil
 import subprocess
 import sys
 from functools import cache
@@ -8,17 +9,32 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-LIBRARIES = {"fmpy": "fmpy", "libcosim": "libcosimpy.CosimExecution", "ecos": "ecospy"}
-LAG = {"fmpy": 0, "libcosim": 1, "ecos": 1}
+LIBRARIES = {
+    "fmpy": "fmpy",
+    "libcosim": "libcosimpy.CosimExecution",
+    "ecos": "ecospy",
+    "pyfmi": "pyfmi.master",
+}
+NATIVE = {"omsimulator": "OMSimulator", "fmusim": "fmusim"}
+"""Commands, native hosts."""
+
+LAG = {"fmpy": 0, "libcosim": 1, "ecos": 1, "pyfmi": 1, "omsimulator": 1}
 """Steps by which a bearing's outputs come late: these tools step all units at once."""
 
-TOOLS = tuple(LIBRARIES)
+TOOLS = ("fmpy", "libcosim", "ecos")
+"""Those that pip installs."""
+
+RARE = ("pyfmi", "omsimulator")
+"""Those that have to be built; the tests that concern them are left out without them."""
+
 REPOSITORY = Path(__file__).parents[2]
 
 
 @cache
 def missing(tool: str) -> str:
     """Why a tool cannot run here; empty if it can."""
+    if tool in NATIVE:
+        return "" if shutil.which(NATIVE[tool]) else f"no command {NATIVE[tool]}"
     command = [sys.executable, "-c", f"import {LIBRARIES[tool]}"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     return done.stderr.strip().splitlines()[-1] if done.returncode else ""
