@@ -32,11 +32,13 @@ from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, S
 from orchestrator.observers.happenings import Happenings
 from orchestrator.observers.ledger import Ledger
 from orchestrator.observers.recorder import Recorder
+from orchestrator.observers.revolutions import Revolutions
 from orchestrator.outcome import Outcome
 from orchestrator.results.least_damped import least_damped_attributes
 from orchestrator.results.ledger import with_ledger
 from orchestrator.results.record import empty_record, loss_attributes, make_record, outcome_attributes
 from orchestrator.results.result import Result, Stopwatch, Timing
+from orchestrator.results.revolutions import with_revolutions
 from orchestrator.results.validity import judge
 from orchestrator.scenario.file import train_of
 from orchestrator.scenario.scenario import Scenario
@@ -189,6 +191,10 @@ class _TimeLoop:
         if scenario.turns:
             self._keepers["happenings"] = self._happenings
             self._observers.append(self._happenings)
+        self._revolutions = Revolutions(system) if scenario.keeps_revolutions else None
+        if self._revolutions is not None:
+            self._keepers["revolutions"] = self._revolutions
+            self._observers.append(self._revolutions)
         self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
         self._least_damped = least_damped_attributes(train, case.units.speed, start.tangents)
         self._reduction = (
@@ -258,4 +264,6 @@ class _TimeLoop:
             happened = self._happenings.happened
             ran = turned(self._schedule, recorder.times, recorder.speeds, happened)
             record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
+        if self._revolutions is not None:
+            record = with_revolutions(record, self._revolutions)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

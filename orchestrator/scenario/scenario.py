@@ -124,9 +124,13 @@ class RecordSettings(Model):
     interval : float
         Time between two records in s, rounded to whole macro steps and never less than one. The extremes of
         every macro step between two records are kept whatever the interval.
+    revolutions : bool or None
+        Keep of every revolution the orders 1/2, 1 and 2, the overall vibration and the extremes, so that a
+        long run needs few records; None: where the speed may change.
     """
 
     interval: Interval = 5e-4
+    revolutions: bool | None = None
 
 
 class Scenario(Model):
@@ -204,6 +208,12 @@ class Scenario(Model):
     def turns(self) -> bool:
         """Whether its speed changes, or may."""
         return self.rotation is not None
+
+    @property
+    def keeps_revolutions(self) -> bool:
+        """Whether the record has every revolution."""
+        asked = self.record.revolutions
+        return self.turns if asked is None else asked
 
     def start_speed(self, rated: float) -> float:
         """Speed at the start, of a train of this rated speed [rad/s]."""

@@ -15,6 +15,7 @@ from orchestrator.results.figures.film import film_maps
 from orchestrator.results.figures.forces_and_moments import forces_and_moments
 from orchestrator.results.figures.least_gap import least_gap
 from orchestrator.results.figures.orbits import orbits
+from orchestrator.results.figures.over_speed import has_speeds, over_speed
 from orchestrator.results.figures.overview import overview
 from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
 from orchestrator.results.figures.spectra import spectra, waterfall
@@ -85,6 +86,7 @@ def figures_of(
         "orbits": lambda: orbits(records, bearing),
         "spectra": lambda: spectra(records, bearing),
         "waterfall": lambda: waterfall(records, bearing),
+        "over-speed": lambda: over_speed(records, bearing) if has_speeds(records) else None,
         "film": lambda: film_maps(records, bearing),
         "housing-and-foundation": lambda: supports(records, bearing) if has_supports(records) else None,
     }

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from fmus import port
-from orchestrator.case.simulate import simulate
+from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
 from orchestrator.fmi.folder import build
+from orchestrator.observers.checkpoint import Checkpoints, read
 from orchestrator.observers.happenings import Happenings
 from orchestrator.results.ledger import ledger_of
 from orchestrator.scenario.events import BladeLoss, Change, Trip, VacuumBreak, from_json, to_json
@@ -166,3 +167,22 @@ def test_a_coast_down_obeys_its_torques(fan):
     assert abs(ledger.relative_gap) < 5e-3
     held = record["foundation_force"].isel(time=0).values + record["static_force"].values
     assert np.abs(held).max() < 0.5 * np.abs(record["static_force"]).max()
+
+
+def test_a_coast_down_goes_on_where_it_was_saved(fan, tmp_path):
+    """To the bit, revolutions and ledger included, from a checkpoint between trip and end."""
+    changes = {"end": 0.12, "ledger": True, "events": [
+        {"wheel": "wheel", "unbalance": 0.05, "speed": 156.0},
+        {"kind": "trip", "time": 0.02},
+        {"kind": "change", "bearing": "fan-side", "parameter": "offset.y", "by": -1e-7, "time": 0.06},
+    ]}  # fmt: skip
+    scenario = load_scenario(FAN / "coast-down.toml", changes)
+    saving = Execution(checkpoints=Checkpoints(tmp_path, 0.08, {}))
+    whole = simulate(scenario, fan, execution=saving).record
+    saved = read(tmp_path)
+    assert saved.time == pytest.approx(0.08)
+    assert [event.kind for event in from_attributes(whole.attrs).events] == ["trip", "blade-loss", "change"]
+    again = simulate(scenario, fan, execution=Execution(resume=saved)).record
+    for name in whole.variables:
+        np.testing.assert_array_equal(again[name].values, whole[name].values, err_msg=name)
+    assert whole.sizes["revolution"] >= 2

@@ -1,0 +1,168 @@
+"""What each revolution of the rotor was like: orders, overall vibration, extremes; kept for the whole run.
+
+Of a journal's motion in its bearing the complex amplitude of an order k is, with the angle a of the rotor,
+
+    A = 1 / (2 pi) * integral of x exp(-i k a) da over this revolution and the one before
+
+by the trapezoidal rule over the steps; over two, for half and whole orders to leave one another alone.  The
+speed may change in them.  A run of an hour at 25 Hz has 90000 rows of some hundred numbers a bearing, so the
+record of a long run may have few instants and all of its revolutions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.master.coupling import Advance
+from orchestrator.master.observer import Observer
+from orchestrator.master.stepping import Stepper
+from orchestrator.master.system import RESPONSE, System
+
+Array = NDArray[np.float64]
+
+ORDERS = (0.5, 1.0, 2.0)
+EXTREMES = ("least_gap", "contact_force", "force")
+"""Of a revolution, at the ends of its steps: the least, and the largest two."""
+_TURN = 2.0 * math.pi
+_ROWS = 256
+
+
+class Revolutions(Observer):
+    """Keeps a row a revolution.
+
+    Parameters
+    ----------
+    system : System
+        Watched after each of its steps.
+
+    Attributes
+    ----------
+    size : int
+        Revolutions so far.
+    """
+
+    def __init__(self, system: System) -> None:
+        n = len(system.bearings)
+        self._system, self.size = system, 0
+        self._orders = np.array(ORDERS)
+        self._times, self._speeds = np.empty(_ROWS), np.empty(_ROWS)
+        self._amplitudes = np.empty((_ROWS, len(ORDERS), n, 2), dtype=complex)
+        self._overall = np.empty((_ROWS, n, 2))
+        self._extremes = np.empty((_ROWS, n, len(EXTREMES)))
+        # of the revolution that is going on
+        self._angle = self._began = 0.0
+        self._before = np.zeros((n, 2))
+        self._sum = np.zeros((len(ORDERS), n, 2), dtype=complex)
+        self._last = np.full_like(self._sum, np.nan)
+        self._signs = np.exp(1j * _TURN * self._orders).real[:, None, None]
+        self._range = np.zeros((2, n, 2))
+        self._most = np.zeros((n, len(EXTREMES)))
+
+    def begin(self, stepper: Stepper) -> None:
+        """Take the start of the run."""
+        self._before[:] = self._system.motion[:, :2]
+        self._renew()
+
+    def watch(self, start: float, end: float, advance: Advance) -> None:
+        """Add a step."""
+        motion = self._system.motion[:, :2]
+        first = self._angle
+        last = first + abs(self._system.speed) * (end - start)
+        if last < _TURN:
+            self._add(first, last, self._before, motion)
+        else:
+            share = (_TURN - first) / (last - first)
+            between = self._before + share * (motion - self._before)
+            self._add(first, _TURN, self._before, between)
+            self._close(start + share * (end - start))
+            last -= _TURN
+            self._before[:] = between
+            self._renew()
+            self._add(0.0, last, between, motion)
+        self._angle = last
+        self._before[:] = motion
+
+    def _add(self, first: float, last: float, before: Array, after: Array) -> None:
+        turned = 0.5 * (last - first)
+        for k, order in enumerate(ORDERS):
+            self._sum[k] += (turned * np.exp(-1j * order * first)) * before
+            self._sum[k] += (turned * np.exp(-1j * order * last)) * after
+        np.minimum(self._range[0], after, out=self._range[0])
+        np.maximum(self._range[1], after, out=self._range[1])
+        np.maximum(self._most, self._now(), out=self._most)
+
+    def _now(self) -> Array:
+        system = self._system
+        gap, contact = (system.responses[:, RESPONSE[name]] for name in ("h_min", "contact_force"))
+        return np.column_stack([-gap, contact, np.hypot(system.forces[:, 0], system.forces[:, 1])])
+
+    def _close(self, time: float) -> None:
+        if self.size == len(self._times):
+            self._grow()
+        k = self.size
+        self._times[k], self._speeds[k] = time, _TURN / (time - self._began)
+        # Angles begin at 0 in each revolution: the factor of half an order turns by -1 from one to the next.
+        self._amplitudes[k] = (self._sum + self._signs * self._last) / _TURN
+        self._last[:] = self._sum
+        self._overall[k] = self._range[1] - self._range[0]
+        self._extremes[k] = self._most * (-1.0, 1.0, 1.0)
+        self.size, self._began = k + 1, time
+
+    def _renew(self) -> None:
+        self._sum[:] = 0.0
+        self._range[:] = self._before
+        self._most[:] = self._now()
+
+    def _grow(self) -> None:
+        for name in ("times", "speeds", "amplitudes", "overall", "extremes"):
+            old = getattr(self, f"_{name}")
+            new = np.empty((2 * len(old), *old.shape[1:]), dtype=old.dtype)
+            new[: len(old)] = old
+            setattr(self, f"_{name}", new)
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """All that it holds, by name."""
+        rows = ("times", "speeds", "amplitudes", "overall", "extremes")
+        now = {name: getattr(self, f"_{name}") for name in ("before", "sum", "last", "range", "most")}
+        kept = {name: getattr(self, f"_{name}")[: self.size] for name in rows}
+        return {**kept, **now, "turn": np.array([self._angle, self._began])}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what `arrays` returned."""
+        self.size = len(arrays["times"])
+        while len(self._times) < self.size:
+            self._grow()
+        for name in ("times", "speeds", "amplitudes", "overall", "extremes"):
+            getattr(self, f"_{name}")[: self.size] = arrays[name]
+        for name in ("before", "sum", "last", "range", "most"):
+            getattr(self, f"_{name}")[:] = arrays[name]
+        self._angle, self._began = arrays["turn"].tolist()
+
+    @property
+    def times(self) -> Array:
+        """Ends of the revolutions in s."""
+        return self._times[: self.size]
+
+    @property
+    def speeds(self) -> Array:
+        """Mean speeds in them in rad/s."""
+        return self._speeds[: self.size]
+
+    @property
+    def amplitudes(self) -> NDArray[np.complex128]:
+        """Of each order, (revolutions, orders, bearings, 2) in m; not-a-number in the first revolution."""
+        return self._amplitudes[: self.size]
+
+    @property
+    def overall(self) -> Array:
+        """Peak to peak, (revolutions, bearings, 2) in m."""
+        return self._overall[: self.size]
+
+    def extreme(self, name: str) -> Array:
+        """One of `EXTREMES`, (revolutions, bearings)."""
+        return self._extremes[: self.size, :, EXTREMES.index(name)]
