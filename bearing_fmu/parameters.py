@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -58,7 +59,14 @@ class BearingParameters:
         Of the bearing's soft layer: thickness, m, 0 for a rigid bore, Young's modulus, Pa, Poisson's ratio,
         and hardness, Pa, see `bearing_fmu.contact.layer`; the hardness is told from also without a layer.
     supply_temperature, heat_capacity : float
-        Of the oil, K and J/(kg K); they make the temperature that is told, the viscosity is a constant.
+        Of the oil, K and J/(kg K); they make the temperature that is told.
+    temperature : str
+        "held", the viscosity is a constant; or "followed", it goes with the temperature of a first-order
+        balance in time, see `bearing_fmu.films.followed`.
+    viscosity_40, viscosity_100 : float
+        Kinematic viscosities of the oil at 40 and 100 degrees Celsius, m2/s, for the latter.
+    heat_storage : float
+        What warms with the oil, J/K; 0 for the oil in the centred gap alone.
 
     Raises
     ------
@@ -88,6 +96,11 @@ class BearingParameters:
     supply_temperature: float = port.default_of("supply_temperature")
     heat_capacity: float = port.default_of("heat_capacity")
 
+    temperature: str = "held"
+    viscosity_40: float = 0.0
+    viscosity_100: float = 0.0
+    heat_storage: float = 0.0
+
     feed_content: float = port.default_of("feed_content")
     feed_flow: float = port.default_of("feed_flow")
 
@@ -102,6 +115,8 @@ class BearingParameters:
             raise ValueError(f"bearing parameter bore: {error}") from None
         if self.has_layer:
             self._check_layer()
+        if self.temperature == "followed":
+            self._check_heat()
         starved = self.feed_content < 1.0 or self.feed_flow > 0.0
         if starved and (self.boundary != "jfo" or not self.arcs):
             raise ValueError(
@@ -136,6 +151,21 @@ class BearingParameters:
                 f"bearing parameter layer_thickness = {self.layer_thickness!r}: must be 0 in turbulent films "
                 "or bores that are not plain, and with Reynolds' condition"
             )
+
+    def _check_heat(self) -> None:
+        if self.has_layer or self.boundary == "jfo" or self.tilts:
+            raise ValueError(
+                "bearing parameter temperature = 'followed': allowed with a rigid bore that is fixed, and with "
+                "Guembel's or Reynolds' condition"
+            )
+        if self.viscosity_40 == 0.0:
+            raise ValueError(
+                "bearing parameter temperature = 'followed': needs an oil, viscosity_40 and viscosity_100"
+            )
+        try:
+            port.Oil(self.viscosity_40, self.viscosity_100)
+        except ValueError as error:
+            raise ValueError(f"bearing parameter {error}") from None
 
     @classmethod
     def of(cls, values: Mapping[str, Value]) -> BearingParameters:
@@ -172,6 +202,12 @@ class BearingParameters:
     def is_turbulent(self) -> bool:
         """Whether flow and friction go by the local Reynolds number."""
         return self.turbulence != "laminar"
+
+    @property
+    def stored_heat(self) -> float:
+        """What a film that is followed stores, J/K."""
+        volume = 2.0 * math.pi * self.radius * self.clearance * self.width
+        return self.heat_storage or self.density * self.heat_capacity * volume
 
     @property
     def has_layer(self) -> bool:

@@ -104,6 +104,7 @@ _PARAMETERS: tuple[Variable, ...] = (
         for name, text, choices in (
             ("film.boundary", "where the film ruptures", ("guembel", "reynolds", "jfo")),
             ("film.turbulence", "how the oil flows", ("laminar", "constantinescu")),
+            ("film.temperature", "the temperature of the oil", ("held", "followed")),
         )
     ),
     Variable(
@@ -169,10 +170,15 @@ _PARAMETERS: tuple[Variable, ...] = (
         )
     ),
     *(
-        Variable(f"oil.{name}", "parameter", unit, text, start, minimum=0.0, nominal=nominal, above=True)
+        Variable(
+            f"oil.{name}", "parameter", unit, text, start, minimum=0.0, nominal=nominal, above=start > 0.0
+        )
         for name, unit, text, start, nominal in (
             ("supply_temperature", "K", "temperature at which the oil is supplied", 313.15, 1e2),
             ("heat_capacity", "J/(kg.K)", "specific heat capacity of the oil", 2e3, 1e3),
+            ("viscosity_40", "m2/s", "kinematic viscosity at 40 degrees Celsius; 0: not known", 0.0, 1e-5),
+            ("viscosity_100", "m2/s", "kinematic viscosity at 100 degrees Celsius; 0: not known", 0.0, 1e-5),
+            ("heat_storage", "J/K", "what warms with a followed film; 0: the oil in its gap", 0.0, 1e3),
         )
     ),
     WHIRL,
@@ -223,7 +229,8 @@ _OUTPUTS: tuple[Variable, ...] = (
             (
                 "oil_temperature",
                 "K",
-                "supply temperature and half the rise by friction power over oil flow, of 1000 K at most",
+                "of a film followed in time; else supply temperature and half the rise by friction power "
+                "over oil flow, of 1000 K at most",
                 0.0,
                 1e2,
             ),
@@ -259,6 +266,10 @@ BEARING_KEYS: dict[str, str] = {
     "layer_hardness": "layer.hardness",
     "supply_temperature": "oil.supply_temperature",
     "heat_capacity": "oil.heat_capacity",
+    "temperature": "film.temperature",
+    "viscosity_40": "oil.viscosity_40",
+    "viscosity_100": "oil.viscosity_100",
+    "heat_storage": "oil.heat_storage",
 }
 """Parameters of a bearing by the words that trains, scenarios and films have for them."""
 

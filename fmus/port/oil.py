@@ -87,6 +87,13 @@ class Oil:
         slope = (warm - hot) / math.log10(HOT / WARM)
         return (10.0**10.0 ** (warm - slope * math.log10(temperature / WARM)) - _SHIFT) * _MM2
 
+    def temperature(self, kinematic: float) -> float:
+        """Temperature [K] at which it has a kinematic viscosity [m2/s]."""
+        warm, hot, here = (
+            math.log10(math.log10(nu / _MM2 + _SHIFT)) for nu in (self.at_40, self.at_100, kinematic)
+        )
+        return WARM * (HOT / WARM) ** ((warm - here) / (warm - hot))
+
     def dynamic(self, temperature: float, density: float) -> float:
         """Dynamic viscosity [Pa s] at a temperature [K], with the density [kg/m3]."""
         return density * self.kinematic(temperature)

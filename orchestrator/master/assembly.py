@@ -70,7 +70,9 @@ def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuSto
         seat.oil is not None and scenario.depth_of(seat.name) != LINEAR.name for seat in train.bearings
     ):
         return {}
-    quick = scenario.model_copy(update={"reduction": "guyan"})  # statics go through the unreduced shaft
+    held = scenario.film.model_copy(update={"temperature": "held"})
+    # statics go through the unreduced shaft, and oils are where they are told to be
+    quick = scenario.model_copy(update={"reduction": "guyan", "film": held})
     system = join(_parts(quick, train, fmus, store), quick, train.speed, fmus)
     try:
         found = effective_viscosities(system, train, train.speed)

@@ -166,6 +166,8 @@ def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
                 f"film.boundary = {boundary!r}; allowed at depth {depth.name} is "
                 f"{' or '.join(map(repr, depth.boundaries))}",
             )
+    if scenario.film.temperature == "followed":
+        yield from _heat_problems(scenario, train, used)
     for seat in train.bearings if boundary == "jfo" else ():
         if seat.has_film and not seat.has_grooves and not seat.ambient_pressure > 0.0:
             yield (
@@ -173,6 +175,21 @@ def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
                 f"film.boundary = {boundary!r}; allowed with oil at each bearing; {seat.name} has neither "
                 "grooves nor an ambient_pressure > 0",
             )
+
+
+def _heat_problems(scenario: Scenario, train: Train, used: set[str]) -> Iterator[Problem]:
+    """Yield what does not go with an oil that warms in time."""
+    place, word = ("film", "temperature"), f"film.temperature = {scenario.film.temperature!r}"
+    if "table" in used or scenario.film.boundary == "jfo":
+        yield place, f"{word}; allowed at depths v1, v2 and v3, with film.boundary 'guembel' or 'reynolds'"
+    for seat in train.bearings:
+        if seat.has_film and seat.oil is None:
+            yield (
+                place,
+                f"{word}; allowed with an oil at each bearing, a grade or a curve; {seat.name} has none",
+            )
+        if seat.has_film and seat.layer_thickness > 0.0:
+            yield place, f"{word}; allowed with rigid bores; {seat.name} has a layer_thickness"
 
 
 def event_problems(scenario: Scenario) -> Iterator[Problem]:

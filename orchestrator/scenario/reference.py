@@ -83,6 +83,7 @@ _OWN_WORDS = {
     "viscosity_100": "The same at 100 °C.",
     "supply_temperature": "Temperature at which the oil is supplied.",
     "heat_capacity": "Specific heat capacity of the oil.",
+    "heat_storage": "What warms with a film whose temperature is followed; 0: the oil in its gap.",
     "side": "`front` or `rear` of the elastic coupling at the same z.",
     "bore": "plain, lemon, two-lobe, offset-halves, three-lobe, four-lobe, tilting-pads; or `arcs`.",
     "foundation": "Name of a table with the modes of a foundation beside the file.",

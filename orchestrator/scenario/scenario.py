@@ -92,6 +92,7 @@ def _whole(key: str) -> Any:
 
 
 _Boundary = Annotated[str, _one_of(lambda: port.bearing_parameter("boundary").choices)]
+_Temperature = Annotated[str, _one_of(lambda: port.bearing_parameter("temperature").choices)]
 _Turbulence = Annotated[str, _one_of(lambda: port.bearing_parameter("turbulence").choices)]
 
 
@@ -108,12 +109,16 @@ class FilmSettings(Model):
         rupture and reformation in time, at depth v1, with oil from grooves or ambient_pressure > 0.
     turbulence : str
         "laminar", as in the paper, or "constantinescu": flow and friction by the local Reynolds number.
+    temperature : str
+        Of oils given by grade or curve: "held" at that of the equilibrium, or "followed" from there on: each
+        film has the temperature of a first-order balance in time.
     """
 
     columns: int = _whole("columns")
     rows: int = _whole("rows")
     boundary: _Boundary = port.default_word("boundary")
     turbulence: _Turbulence = port.default_word("turbulence")
+    temperature: _Temperature = port.default_word("temperature")
 
 
 class RecordSettings(Model):

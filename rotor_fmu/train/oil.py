@@ -44,6 +44,8 @@ class OilKeys(Entry):
         port.default_of("heat_capacity"), ge=500.0, le=5e3, description="J/kg/K; did you give kJ?"
     )
 
+    heat_storage: float = Field(0.0, ge=0.0, le=1e9, description="J/K")
+
     @property
     def curve(self) -> port.Oil | None:
         """Its viscosity over temperature; None where the viscosity is given."""

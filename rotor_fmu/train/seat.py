@@ -89,6 +89,8 @@ class BearingSeat:
         Soft layer: thickness [m], 0 for a rigid bore, Young's modulus [Pa], Poisson's ratio, hardness [Pa].
     supply_temperature, heat_capacity : float
         Of the oil [K], [J/(kg K)].
+    heat_storage : float
+        What warms with a film whose temperature is followed [J/K]; 0: the oil in its gap.
     viscosity_40, viscosity_100 : float
         Kinematic, at 40 and 100 degrees Celsius [m2/s]; 0: the viscosity is given.
     load : float or None
@@ -130,6 +132,7 @@ class BearingSeat:
     heat_capacity: float = port.default_of("heat_capacity")
     viscosity_40: float = 0.0
     viscosity_100: float = 0.0
+    heat_storage: float = 0.0
     load: float | None = None
     residual_tilt_x: float = 0.0
     residual_tilt_y: float = 0.0

@@ -29,6 +29,7 @@ _SINCE = (
     "pedestal",
     "supply_temperature",
     "heat_capacity",
+    "heat_storage",
     "viscosity_40",
     "viscosity_100",
 )

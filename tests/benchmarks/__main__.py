@@ -1,4 +1,4 @@
-"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g h]``."""
+"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g h i]``."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
 from tests.benchmarks import (  # noqa: E402
+    contact,
     corners,
     error_against_cost,
     film_cost,
@@ -29,6 +30,7 @@ BENCHMARKS = {
     "f": mass_conserving.main,
     "g": work_precision.main,
     "h": corners.main,
+    "i": contact.main,
 }
 
 

@@ -16,6 +16,7 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.aligned.aligned import solve_aligned
 from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
 from bearing_fmu.films.corners import SPREAD, leaving, mix
+from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.tilted.depth import LAYERED
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.kernels.compiled import stage
@@ -69,9 +70,9 @@ POCKETED = replace(TILTED, name="aligned", tilts=False)
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
     if float(values.get("layer.thickness", 0.0)) > 0.0:
-        return Film.of(ON_LAYER, values)
+        return film_of(ON_LAYER, values)
     parameters = BearingParameters.of(values)
     solver = SOLVER if parameters.boundary == "guembel" else RUPTURING
     if parameters.has_pockets:
         solver = POCKETED
-    return (TiltingFilm if parameters.tilts else Film).of(solver, values)
+    return TiltingFilm.of(solver, values) if parameters.tilts else film_of(solver, values)

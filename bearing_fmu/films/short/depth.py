@@ -12,6 +12,7 @@ from bearing_fmu.bore.bore import Bore
 from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
+from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.short.flooded import short_film
 from bearing_fmu.films.short.short import solve_short
 from bearing_fmu.kernels.compiled import stage
@@ -41,4 +42,4 @@ SOLVER = Solver("short", port_kernel("short", _solve, add_aligned), _prepare)
 
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
-    return Film.of(SOLVER, values)
+    return film_of(SOLVER, values)

@@ -46,6 +46,8 @@ def _parameters(values: Mapping[str, Value]) -> BearingParameters:
             f"bearing parameter ambient_pressure = {parameters.ambient_pressure!r}: the table film knows 0 "
             "only"
         )
+    if parameters.temperature == "followed":
+        raise ValueError("bearing parameter temperature = 'followed': the table film holds its temperature")
     if parameters.is_turbulent:
         raise ValueError(
             f"bearing parameter turbulence = {parameters.turbulence!r}: the table film is laminar"

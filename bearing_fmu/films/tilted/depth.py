@@ -15,6 +15,7 @@ from bearing_fmu.contact.slice import AREA, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel, port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.corners import SPREAD, leaving, mix
+from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.layered import LayeredFilm, layered_film, solve_layered
@@ -125,4 +126,4 @@ def make(values: Mapping[str, Value]) -> Film:
         return TiltingFilm.of(SOLVER, values)
     if values.get("film.boundary") == "jfo":
         return ConservingFilm.of(CONSERVING, values)
-    return Film.of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)
+    return film_of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.gap import flow_gap
+from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.layer import deflection, rough_flow
 from bearing_fmu.films.tilted.lines import SHARE
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
@@ -32,7 +33,9 @@ Floats = NDArray[np.float64]
 
 ROUNDS = 60
 #: Of a step of the pressure: one more would change it by about the square of that.
-_PRECISION = 1e-7
+_PRECISION = 1e-4
+#: Roughnesses by which a step presses the wall back at most, of a first and of a second search.
+_STEPS = (1.0, 3.0)
 _FLAT = 1e-12
 
 
@@ -88,20 +91,27 @@ def _set_columns(layered: LayeredFilm, ambient: float) -> None:
     metric = film.rings[0, METRIC]
     for j in range(n + 2):
         field, scale = film.column[:, j], film.stiffness[j] * cell * sigma**3
+        touches = False
         for i in range(m):
             pressure = ambient + (film.pressures[0, j, i] if j < n else 0.0)
             s = field[GAP, i] + soft * max(pressure, 0.0)
-            h, h1, h2 = _gap(layered, s)
-            t, t1, t2 = flow_gap(h, sigma)
+            field[OPEN, i], field[OPEN_1, i], field[OPEN_2, i] = s, 1.0, 0.0
+            touches = touches or s < REACH * sigma
+        for i in range(m):
+            h, h1 = field[OPEN, i], 1.0
+            layered.asperities[0, j, i], layered.asperities[1, j, i] = 0.0, 0.0
+            if touches and h < REACH * sigma:
+                s = h
+                h, h1, h2 = _gap(layered, s)
+                t, t1, t2 = flow_gap(h, sigma)
+                field[OPEN, i], field[OPEN_1, i], field[OPEN_2, i] = t, t1 * h1, t2 * h1 * h1 + t1 * h2
+                # of the deflection itself: h - s would be rounding where nothing touches
+                back = deflection(s / sigma, layered.constants[0], layered.table)[0]
+                layered.asperities[0, j, i] = sigma * back / soft
+                layered.asperities[1, j, i] = (h1 - 1.0) / soft
             flow, flow1 = rough_flow(h / sigma)
-            field[OPEN, i], field[OPEN_1, i], field[OPEN_2, i] = t, t1 * h1, t2 * h1 * h1 + t1 * h2
             field[CONDUCTANCE, i] = scale * metric[i] * flow
-            field[POWER, i] = flow1 / (flow * sigma) * t / max(t1, _FLAT)
-            # of the deflection itself: h - s would be rounding where nothing touches
-            layered.asperities[0, j, i] = (
-                sigma * deflection(s / sigma, layered.constants[0], layered.table)[0] / soft
-            )
-            layered.asperities[1, j, i] = (h1 - 1.0) / soft
+            field[POWER, i] = flow1 / (flow * sigma) * field[OPEN, i] / max(field[OPEN_1, i] / h1, _FLAT)
 
 
 @inner_kernel
@@ -117,15 +127,20 @@ def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
             fore = i + 1 if i + 1 < m else 0
             here = soft * max(pressure[i] + ambient, 0.0)
             there = soft * max(pressure[fore] + ambient, 0.0)
-            h, h1, _ = _gap(layered, field[GAP, i] + 0.5 * (here + there))
+            h, h1 = field[GAP, i] + 0.5 * (here + there), 1.0
+            t, t1 = field[GAP, i] + (here if speed >= 0.0 else there), 1.0
+            if h < REACH * sigma:
+                h, h1, _ = _gap(layered, h)
+            if t < REACH * sigma:
+                t, own, _ = _gap(layered, t)
+                t, t1, _ = flow_gap(t, sigma)
+                t1 *= own
             flow, flow1 = rough_flow(h / sigma)
             slope = flow1 / (flow * sigma) * h1
-            h, h1, _ = _gap(layered, field[GAP, i] + (here if speed >= 0.0 else there))
-            t, t1, _ = flow_gap(h, sigma)
-            field[OPEN, i], field[OPEN_1, i] = t, t1 * h1
+            field[OPEN, i], field[OPEN_1, i] = t, t1
             field[CONDUCTANCE, i] = scale / metric[i] * flow
-            field[POWER, i] = slope * t / max(t1 * h1, _FLAT)
-            layered.advected[0, j, i] = film.weights[j] * speed * t1 * h1
+            field[POWER, i] = slope * t / max(t1, _FLAT)
+            layered.advected[0, j, i] = film.weights[j] * speed * t1
             layered.advected[1, j, i] = slope * field[CONDUCTANCE, i] * (pressure[fore] - pressure[i])
 
 
@@ -187,15 +202,15 @@ def _linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, tu
 
 
 @inner_kernel
-def _advance(layered: LayeredFilm) -> float:
+def _advance(layered: LayeredFilm, most: float) -> float:
     """Add the step in `sides` to the pressure; its size over the largest pressure.
 
-    A step presses the wall back by a roughness at most: from a closed gap the linear film would overshoot.
+    A step raises the pressure by `most` only: from a closed gap the linear film would overshoot.
     """
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
-    step, largest, most = 0.0, 0.0, layered.constants[1] / layered.constants[2]
+    step, largest = 0.0, 0.0
     for j in range(n):
         for i in range(m):
             at = i * width + j
@@ -211,23 +226,33 @@ def _advance(layered: LayeredFilm) -> float:
 def solve_layered(
     layered: LayeredFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, result: Floats
 ) -> int:
-    """Solve for the pressure by Newton's method, from none; otherwise as `reynolds.solve_pressure`."""
+    """Solve for the pressure by Newton's method; otherwise as `reynolds.solve_pressure`."""
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     shape_gap(film, None, q, sigma, 1.0)
     film.mixed[SHARE] = 0.0
-    film.pressures[0] = 0.0
     status = NOT_CONVERGED
-    for _ in range(ROUNDS):
-        _linearise(layered, v, speed, ambient, False)
-        b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
-        if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
-            status = NO_SOLUTION
-            break
-        solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
-        if _advance(layered) < _PRECISION:
-            status = OK
+    for attempt in range(len(_STEPS)):
+        for j in range(n):
+            for i in range(m):
+                # first a wall that gives way to where nothing overlaps, then one at rest
+                overlap = max(-film.column[GAP, j, i], 0.0) if attempt == 0 else 0.0
+                film.sides[i * width + j] = overlap / layered.constants[2]
+        unfold(film, 0, 0, 1)
+        most = _STEPS[attempt] * sigma / layered.constants[2]
+        status = NOT_CONVERGED
+        for _ in range(ROUNDS):
+            _linearise(layered, v, speed, ambient, False)
+            b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
+            if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
+                status = NO_SOLUTION
+                break
+            solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
+            if _advance(layered, most) < _PRECISION:
+                status = OK
+                break
+        if status == OK:
             break
     if status == OK:
         _linearise(layered, v, speed, ambient, True)

@@ -10,7 +10,8 @@ from scipy.special import lambertw
 
 from bearing_fmu.film import make_film
 from fmus.port import Oil
-from orchestrator.errors import EquilibriumError
+from orchestrator.case.simulate import simulate
+from orchestrator.errors import EquilibriumError, ScenarioError
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.folder import build
 from orchestrator.master.assembly import assemble
@@ -74,3 +75,26 @@ def test_machine_on_oil_of_a_grade(tmp_path):
             np.testing.assert_allclose(2.0 * 870.0 * 2e3 * flow * rise, power, rtol=1e-6)
         finally:
             system.close()
+
+
+def test_machine_on_oil_that_warms(tmp_path):
+    """The example without a loss: from the equilibrium on nothing changes, also where steps go back."""
+    changes = {
+        "events": (),
+        "end": 0.01,
+        "step": 1e-3,
+        "coupling": "newton",
+        "film": {"temperature": "followed"},
+        "unbalance": {"grade": 0.0},
+    }
+    scenario, train = load_with_train(str(EXAMPLE / "loss.toml"), changes)
+    build(tmp_path, [train], ["v3"])
+    record = simulate(scenario, tmp_path).record
+    temperature = record["oil_temperature"].values
+    assert temperature.min() > 318.16
+    np.testing.assert_allclose(temperature, np.broadcast_to(temperature[0], temperature.shape), rtol=1e-6)
+
+
+def test_what_does_not_warm_is_said():
+    with pytest.raises(ScenarioError, match=r"temperature = 'followed'; allowed with an oil at each bearing"):
+        load_with_train("small", {"film": {"temperature": "followed"}})
