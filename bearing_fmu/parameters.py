@@ -155,8 +155,8 @@ class BearingParameters:
     def _check_heat(self) -> None:
         if self.has_layer or self.boundary == "jfo" or self.tilts:
             raise ValueError(
-                "bearing parameter temperature = 'followed': allowed with a rigid bore that is fixed, and with "
-                "Guembel's or Reynolds' condition"
+                "bearing parameter temperature = 'followed': allowed with a rigid bore that is fixed, and "
+                "with Guembel's or Reynolds' condition"
             )
         if self.viscosity_40 == 0.0:
             raise ValueError(

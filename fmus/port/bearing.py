@@ -159,14 +159,7 @@ _PARAMETERS: tuple[Variable, ...] = (
             ("thickness", "m", "thickness of the bearing's soft layer; 0: rigid", 0.0, 1e-3, False),
             ("modulus", "Pa", "Young's modulus of the layer", 5e10, 1e10, True),
             ("poisson", "", "Poisson's ratio of the layer, below 0.5", 0.35, 0.1, False),
-            (
-                "hardness",
-                "Pa",
-                "hardness of the softer metal; of a layer it bounds the contact",
-                2e8,
-                1e8,
-                True,
-            ),
+            ("hardness", "Pa", "hardness of the softer metal; bounds the contact of a layer", 2e8, 1e8, True),
         )
     ),
     *(
