@@ -29,6 +29,8 @@ STEADY = 20.0
 """Revolutions before an event of which the spectrum is made."""
 LENGTH, SLICES, HIGHEST_OVER_TIME = 8.0, 80, 4.0
 """Of a waterfall: revolutions of a slice, how many slices, up to which order."""
+LEAST_CHANGE = 0.02
+"""Share of the largest speed by which it changes at least where things are drawn over it."""
 FLOOR = 1e-9
 """Smallest amplitude drawn [m]."""
 DEFAULT_PROBES = (math.pi / 4.0, 3.0 * math.pi / 4.0)
@@ -83,6 +85,14 @@ def steady_window(phase: Phase, turn: float) -> Window:
     return Window(max(phase.span.start, phase.span.end - STEADY * turn), phase.span.end)
 
 
+def changing_speed(record: xr.Dataset) -> Floats | None:
+    """Speed at each instant in rad/s, not negative; None where it stays."""
+    if "rotation_speed" not in record:
+        return None
+    speed = np.abs(np.asarray(record["rotation_speed"].values, dtype=float))
+    return speed if speed.size and float(np.ptp(speed)) > LEAST_CHANGE * float(speed.max()) else None
+
+
 def probe_spectrum(
     time: Floats, motion: Floats, angle: float, window: Window, turn: float
 ) -> Spectrum | None:
@@ -104,10 +114,12 @@ def probe_spectrum(
     Returns
     -------
     Spectrum or None
-        Up to the order `HIGHEST`; None of fewer than 8 samples.
+        Up to the order `HIGHEST`; None of fewer than 8 samples, or of records too far apart.
     """
     pairs = math.floor(window.length / (2.0 * turn) + 1e-6)
     start = window.end - 2.0 * turn * max(pairs, 1)
+    if _coarse(time, turn):
+        return None
     step = (time[-1] - time[0]) / (time.size - 1)
     chosen = (time > max(start, time[0]) - 0.5 * step) & (time < window.end - 0.5 * step)
     if np.count_nonzero(chosen) < 8:
@@ -117,10 +129,15 @@ def probe_spectrum(
     return Spectrum(found.frequency[inside], found.amplitude[inside])
 
 
+def _coarse(time: Floats, turn: float) -> bool:
+    """Whether records lie further apart than a quarter of a revolution, where spectra would mislead."""
+    return time.size < 2 or float(time[-1] - time[0]) > 0.25 * turn * (time.size - 1)
+
+
 def probe_waterfall(time: Floats, motion: Floats, angle: float, turn: float) -> Spectrum | None:
-    """Amplitudes [m] at a probe over frequency and time; None of fewer than four revolutions."""
+    """Amplitudes [m] at a probe over frequency and time; None of under four revolutions, or coarse ones."""
     length = min(LENGTH, math.floor((time[-1] - time[0]) / turn / 2.0)) * turn
-    if length < 2.0 * turn:
+    if length < 2.0 * turn or _coarse(time, turn):
         return None
     found = waterfall(time, probe_signals(motion, [angle])[0], length, slices=SLICES)
     inside = (found.frequency > 0.0) & (found.frequency <= HIGHEST_OVER_TIME / turn)

@@ -11,12 +11,10 @@ from numpy.typing import NDArray
 from orchestrator.report.encode import packed
 from orchestrator.report.panels.panel import Panel, Trace, layout, line, stacked
 from orchestrator.report.source import Result
-from orchestrator.results.journals import probes_of
+from orchestrator.results.journals import changing_speed, probes_of
 from orchestrator.results.signals.orders import probe_signals, tracked_order
 
 MICRO = 1e6
-LEAST_CHANGE = 0.02
-"""Share of the largest speed by which it changes at least where it is drawn over."""
 TURNS, POINTS = 4.0, 400
 """Revolutions over which an amplitude is taken, and most points of a line."""
 
@@ -45,8 +43,4 @@ def bode(results: Sequence[Result]) -> Iterator[Panel]:
 
 def speed_over_time(result: Result) -> NDArray[np.float64] | None:
     """Speed at each instant in rad/s, None where it stays."""
-    if "rotation_speed" not in result.record:
-        return None
-    speed = np.abs(np.asarray(result.record["rotation_speed"].values, dtype=float))
-    changed = float(speed.max() - speed.min()) > LEAST_CHANGE * float(speed.max())
-    return speed if changed else None
+    return changing_speed(result.record)

@@ -16,6 +16,7 @@ from orchestrator.results.journals import (
     FLOOR,
     HIGHEST,
     HIGHEST_OVER_TIME,
+    changing_speed,
     probe_spectrum,
     probe_waterfall,
     probes_of,
@@ -65,7 +66,9 @@ def waterfalls(results: Sequence[Result]) -> Iterator[Panel]:
 
 
 def order_lines(result: Result, highest: float) -> dict[str, Any]:
-    """Lines at the named orders of the speed."""
+    """Lines at the named orders of the speed; none where it changes."""
+    if changing_speed(result.record) is not None:
+        return {}
     turn = 1.0 / result.turn
     look = {"color": EVENT, "width": 1, "dash": "dot"}
     shapes = [
@@ -136,6 +139,27 @@ def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, t
     shown = layout(
         xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **order_lines(result, HIGHEST_OVER_TIME)
     )
-    shown["shapes"] = [{**shape, "line": shape["line"] | {"color": "white"}} for shape in shown["shapes"]]
+    lines = shown.get("shapes", [])
+    shown["shapes"] = [{**shape, "line": shape["line"] | {"color": "white"}} for shape in lines]
     shown["margin"] = shown["margin"] | {"t": 26}
-    return Panel("waterfall", title, [heat], shown, bearing, 340)
+    return Panel("waterfall", title, [heat, *_orders_over_time(result, fall)], shown, bearing, 340)
+
+
+def _orders_over_time(result: Result, fall: Spectrum) -> Iterator[Trace]:
+    """Lines of the orders that follow a changing speed."""
+    speed = changing_speed(result.record)
+    if speed is None or fall.time is None:
+        return
+    for order, name in NAMED.items():
+        frequency = np.interp(fall.time, result.time, speed) * order / (2.0 * math.pi)
+        frequency[frequency > float(fall.frequency.max())] = np.nan
+        yield {
+            "type": "scatter",
+            "mode": "lines",
+            "name": name,
+            "x": [None if np.isnan(x) else round(float(x), 4) for x in frequency],
+            "y": [round(float(t), 5) for t in fall.time],
+            "line": {"color": "white", "width": 1, "dash": "dot"},
+            "showlegend": False,
+            "hoverinfo": "name",
+        }

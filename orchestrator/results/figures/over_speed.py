@@ -10,26 +10,20 @@ import numpy as np
 
 from orchestrator.results import statistics
 from orchestrator.results.figures import style
-from orchestrator.results.journals import probes_of
+from orchestrator.results.journals import changing_speed, probes_of
 from orchestrator.results.revolutions import NAME, order_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-LEAST_CHANGE = 0.02
-"""Share of the largest speed by which it changes at least where it is drawn over."""
 _ORDERS = {1.0: ("1X", "-"), 0.5: ("\u00bdX", ":"), 2.0: ("2X", "--")}
 _MINUTE = 30.0 / math.pi
 
 
 def has_speeds(records: Sequence[xr.Dataset]) -> bool:
     """Whether the speed of these runs changes, and they kept their revolutions."""
-    return all(NAME in record and _changes(record["revolution_speed"].values) for record in records)
-
-
-def _changes(speed: np.ndarray) -> bool:
-    return speed.size > 2 and float(np.ptp(speed)) > LEAST_CHANGE * float(speed.max())
+    return all(NAME in record and changing_speed(record) is not None for record in records)
 
 
 def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure:

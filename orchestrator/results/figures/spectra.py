@@ -58,7 +58,8 @@ def spectra(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure
                 look = {"color": _BEFORE if before else _LASTING, "linestyle": "--" if before else "-"}
                 axes.semilogy(found.frequency, amplitude, linewidth=1.0, **look, label=phase.name)
                 largest = max(largest, float(amplitude.max()))
-            _name_orders(axes, turn, journals.HIGHEST, named=row == 0)
+            if journals.changing_speed(record) is None:  # else an order has no frequency of its own
+                _name_orders(axes, turn, journals.HIGHEST, named=row == 0)
             style.dress(axes)
             prefix = style.row_prefix(records, record, bearing)
             axes.set_title(
@@ -99,12 +100,18 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
     mesh = None
     for axes, record, fall in zip(grid, records, found, strict=True):
         if fall is None or fall.time is None:
-            axes.text(0.5, 0.5, "fewer than four revolutions", transform=axes.transAxes, ha="center")
+            axes.text(
+                0.5,
+                0.5,
+                "fewer than four revolutions, or records too far apart",
+                transform=axes.transAxes,
+                ha="center",
+            )
             continue
         values = np.maximum(fall.amplitude, journals.FLOOR) * MICRO
         look = {"norm": norm, "cmap": "viridis", "shading": "nearest", "rasterized": True}
         mesh = axes.pcolormesh(fall.frequency, fall.time, values, **look)
-        _name_orders(axes, _turn(record), journals.HIGHEST_OVER_TIME, colour="white")
+        _draw_orders(axes, record)
         panel = f"{style.row_prefix(records, record, bearing)}probe at "
         angle = math.degrees(journals.probes_of(record)[0])
         axes.set_title(f"{panel}{angle:.0f}°\n", loc="left", fontsize=style.FONT)
@@ -116,6 +123,21 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         bar.ax.yaxis.set_major_formatter(_PLAIN)
         bar.set_label("amplitude, zero to peak [µm]", fontsize=style.FONT)
     return figure
+
+
+def _draw_orders(axes: Axes, record: xr.Dataset) -> None:
+    """Lines of the orders in a waterfall, which follow the speed."""
+    speed = journals.changing_speed(record)
+    if speed is None:
+        _name_orders(axes, _turn(record), journals.HIGHEST_OVER_TIME, colour="white")
+        return
+    limits, time = axes.get_xlim(), record["time"].values
+    for order, name in NAMED.items():
+        frequency = order * speed / (2.0 * math.pi)
+        axes.plot(frequency, time, color="white", linewidth=0.8, linestyle=":")
+        place: dict[str, Any] = {"xycoords": "data", "ha": "center", "va": "bottom", "color": "white"}
+        axes.annotate(name, (float(frequency[0]), float(time[0])), **place, fontsize=style.FONT - 1)
+    axes.set_xlim(*limits)
 
 
 def _turn(record: xr.Dataset) -> float:

@@ -1,0 +1,35 @@
+"""What is drawn of runs whose speed changes, and of records that are far apart."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from orchestrator.results.figures.over_speed import has_speeds
+from orchestrator.results.journals import changing_speed, probe_spectrum, probe_waterfall
+from orchestrator.results.windows import Window
+
+TIME = np.arange(0.0, 2.0, 1e-3)
+
+
+def with_speed(values):
+    return xr.Dataset({"rotation_speed": ("time", values)}, {"time": TIME})
+
+
+def test_a_speed_changes_or_stays():
+    assert changing_speed(xr.Dataset()) is None
+    assert changing_speed(with_speed(np.full(TIME.size, 157.0))) is None
+    falling = with_speed(-157.0 + 20.0 * TIME)
+    np.testing.assert_array_equal(changing_speed(falling), np.abs(falling["rotation_speed"].values))
+    assert not has_speeds([falling])  # without its revolutions
+
+
+@pytest.mark.parametrize(("stride", "drawn"), [(1, True), (30, False)])
+def test_records_further_apart_than_a_quarter_of_a_turn_have_no_spectrum(stride, drawn):
+    """At 25 Hz, and records every 1 or 30 ms."""
+    time, turn = TIME[::stride], 0.04
+    motion = np.vstack([np.cos(2.0 * np.pi * time / turn)] * 2)
+    found = probe_spectrum(time, motion, 0.0, Window(0.0, 2.0), turn)
+    fall = probe_waterfall(time, motion, 0.0, turn)
+    assert (found is not None) == (fall is not None) == drawn
+    if drawn:
+        assert found.frequency[np.argmax(found.amplitude)] == pytest.approx(25.0, rel=1e-2)
