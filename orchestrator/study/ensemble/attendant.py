@@ -26,11 +26,18 @@ _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA
 
 
 class Attendant:
-    """Attends one process, which it starts anew when it has ended; for one thread at a time."""
+    """Attends one process, which it starts anew when it has ended; for one thread at a time.
+
+    Attributes
+    ----------
+    ended : bool
+        Whether it is at its end, and starts no other.
+    """
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._there: Connection | None = None
+        self.ended = False
         self._said = tempfile.TemporaryFile()  # noqa: SIM115
 
     def carry_out(self, work: bytes, limit: float = 0.0) -> Row:
@@ -49,8 +56,13 @@ class Attendant:
         again = self._once(work, limit)
         return replace(again, message=f"{again.message} (twice)") if again.outcome in TRIED_AGAIN else again
 
+    def end(self) -> None:
+        """End the process for good: what it was at is not tried again."""
+        self.ended = True
+        self.close()
+
     def close(self) -> None:
-        """End the process."""
+        """End the process; the next work starts another."""
         process, there = self._process, self._there
         self._process = self._there = None
         if there is not None:
@@ -76,6 +88,8 @@ class Attendant:
         return row
 
     def _connection(self) -> Connection:
+        if self.ended:
+            raise OSError("its study has ended")
         if self._there is None or self._process is None or self._process.poll() is not None:
             self.close()
             self._said.seek(0)
@@ -116,9 +130,11 @@ _all: list[Attendant] = []
 
 def attend(works: Sequence[bytes], limit: float = 0.0) -> list[Row]:
     """Have works done one after another by a process that is free, or a new one; what Dask calls."""
-    try:
-        attendant = _idle.get_nowait()
-    except queue.Empty:
+    attendant = None
+    with suppress(queue.Empty):
+        while attendant is None or attendant.ended:
+            attendant = _idle.get_nowait()
+    if attendant is None or attendant.ended:
         attendant = Attendant()
         _all.append(attendant)
     try:
@@ -128,6 +144,14 @@ def attend(works: Sequence[bytes], limit: float = 0.0) -> list[Row]:
 
 
 def close_all() -> None:
-    """End all processes of runs that this one has started."""
-    for attendant in list(_all):
-        attendant.close()
+    """End all processes of runs that this one has started, whatever they are at."""
+    while _all:
+        _all.pop().end()
+    close_idle()
+
+
+def close_idle() -> None:
+    """End those processes of runs that this one has started, and that are at nothing."""
+    with suppress(queue.Empty):
+        while True:
+            _idle.get_nowait().end()

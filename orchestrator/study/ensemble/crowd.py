@@ -13,7 +13,7 @@ from itertools import islice
 from typing import Any
 
 from orchestrator.errors import OrchestratorError
-from orchestrator.study.ensemble.attendant import attend, close_all
+from orchestrator.study.ensemble.attendant import attend, close_all, close_idle
 from orchestrator.study.ensemble.bench import Work
 from orchestrator.study.ensemble.row import DIED, Row
 
@@ -197,7 +197,7 @@ def crowd(scheduler: str | None, jobs: int, limit: float = 0.0) -> Iterator[Crow
                     n_workers=1,
                     threads_per_worker=jobs,
                     processes=False,  # runs have processes of their own, see attendant.py
-                    dashboard_address=None,
+                    dashboard_address="127.0.0.1:0",  # a study more is no clash of ports
                     memory_limit=0,
                 )
             )
@@ -222,4 +222,4 @@ def crowd(scheduler: str | None, jobs: int, limit: float = 0.0) -> Iterator[Crow
 
 def _close_elsewhere(client: Any) -> None:
     with suppress(Exception):
-        client.run(close_all)
+        client.run(close_idle)

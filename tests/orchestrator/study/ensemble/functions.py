@@ -38,3 +38,15 @@ def fails(x, folder):
     if x == 5 and tries == 1:
         os.kill(os.getpid(), signal.SIGSEGV)
     return float(x)
+
+
+def takes_its_time(x):
+    """The number, after a tenth of a second."""
+    time.sleep(0.1)
+    return x
+
+
+def sleeps(x):
+    """The number, after as many seconds."""
+    time.sleep(x)
+    return x

@@ -1,6 +1,8 @@
 """Studies of functions: whatever a run does, the study ends with a row of each, and the same rows."""
 
+import signal
 import time
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -10,9 +12,10 @@ pytest.importorskip("distributed", reason="studies run on Dask, which is not ins
 import bladeloss
 
 from orchestrator.errors import OrchestratorError
+from orchestrator.master.interrupt import handled, raise_at_once
 from orchestrator.results.ensemble.files import RUNS
+from orchestrator.study.ensemble import attendant, crowd
 from orchestrator.study.ensemble import conduct as conducting
-from orchestrator.study.ensemble import crowd
 from tests.faults import fault
 from tests.orchestrator.study.ensemble import functions
 
@@ -64,6 +67,34 @@ def test_a_study_goes_on_with_what_is_missing_and_gives_the_same_bytes(tmp_path,
     bladeloss.study(GRID, function=functions.total, out=folder)
     assert (folder / "study.nc").read_bytes() == written
     assert (folder / "samples.csv").read_text().splitlines()[1] == "0,1.0,10.0"
+
+
+@fault(
+    "process",
+    "Ctrl-C in a study",
+    "it ends at once, what is done is kept, and the same command goes on from there; exit 130",
+    guard="orchestrator.study.ensemble.conduct:conduct",
+)
+def test_a_study_that_is_stopped_goes_on_from_there(tmp_path, monkeypatch):
+    """Runs under way, which would take a minute, are not waited for."""
+    monkeypatch.setattr(crowd, "close_all", attendant.close_all)
+    (tmp_path / "s.toml").write_text("[parameters.x]\nkey = 'x'\ngrid = [0.0, 0.1, 0.2, 60.0]\n")
+    seen = []
+
+    @contextmanager
+    def stops(*_):
+        yield lambda row: seen.append(row) or (len(seen) == 3 and signal.raise_signal(signal.SIGINT))
+
+    folder = tmp_path / "study"
+    with monkeypatch.context() as patch:
+        patch.setattr(conducting, "show_tally", stops)
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt), handled(raise_at_once):
+            bladeloss.study(tmp_path / "s.toml", function=functions.sleeps, out=folder, jobs=2)
+        assert time.monotonic() - begin < 50.0
+    assert len(list((folder / RUNS).glob("*.json"))) == 3 and not (folder / "study.nc").exists()
+    data = bladeloss.study(tmp_path / "s.toml", function=functions.sleeps, out=folder, limit=0.5)
+    assert data["outcome"].values[:, 0].tolist() == ["finished"] * 3 + ["over-limit"]
 
 
 def test_the_second_stage_runs_where_the_first_says_so():

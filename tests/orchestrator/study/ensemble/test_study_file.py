@@ -1,10 +1,16 @@
 """Wrong studies are refused before anything runs: file, line, key, value, what is allowed."""
 
+import re
+from pathlib import Path
+
 import pytest
 
 from orchestrator.study.ensemble.conduct import Means, plan_of
 from orchestrator.study.ensemble.file import StudyError, read_study_file
+from orchestrator.study.ensemble.sampling import samples_of
+from orchestrator.study.ensemble.subject import ScenarioSubject
 
+ENSEMBLE = Path(__file__).parents[4] / "orchestrator" / "study" / "ensemble"
 RIGHT = """\
 scenario = "small"
 depths = ["v3"]
@@ -139,3 +145,16 @@ def test_wrong_studies_are_said_with_their_line(text, said, tmp_path):
 def test_every_problem_is_said_at_once(tmp_path):
     text = replaced("[0.1, 0.2]", "[]").replace('"uniform"', '"uniformly"').replace('["v3"]', '["v9"]')
     assert len(refusals(tmp_path, text).splitlines()) == 3
+
+
+def test_the_examples_are_right(tmp_path):
+    """That of the page with a draw in place of twenty; of the turbine's, the file and its first sample."""
+    page = (ENSEMBLE / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```toml\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "contact.toml").write_text(example.replace("count = 20", "count = 1"))
+    plan = plan_of(read_study_file(tmp_path / "contact.toml"), Means(tmp_path / "out", tmp_path / "fmus"))
+    assert len(plan.first()) == 10 and plan.depths == ["v2", "v1"]
+    file = read_study_file(ENSEMBLE / "turbine.toml")
+    subject = ScenarioSubject.of(file, tmp_path / "fmus", 60.0)
+    samples = samples_of(file.study)
+    assert len(samples) == 80 and subject.problems(samples[0], "v1") == []
