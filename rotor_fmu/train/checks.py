@@ -143,7 +143,9 @@ def _seat(shaft: Train, entry: BearingEntry) -> Iterator[tuple[str, str]]:
     at = [sides[node - 1][1]] if node else []
     at += [sides[node][0]] if node < len(sides) else []
     if any(abs(d - entry.diameter) > POSITION_TOLERANCE for d in at):
-        there = " and ".join(f"{d:g}" for d in sorted(set(at)))
+        there = f"{at[0]:g}"
+        if len(at) == 2 and abs(at[0] - at[1]) > POSITION_TOLERANCE:
+            there += f" in front and {at[1]:g} behind, so a place where both are the same"
         yield (
             "diameter",
             f"diameter = {entry.diameter!r}; allowed is the shaft's own diameter there, {there}, or any with "
