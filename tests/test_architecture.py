@@ -50,6 +50,7 @@ OF_PHYSICS_FOR_THE_MASTER = {
     "rotor_fmu.recipe",
     "rotor_fmu.train.train",
     "rotor_fmu.train.file",
+    "rotor_fmu.train.lone",
     "rotor_fmu.train.checks",
     "rotor_fmu.train.schema",  # its keys, for the page of all keys
     "rotor_fmu.train.entry",

@@ -82,7 +82,9 @@ BEARING_HELP = (
     "One bearing on its own, every depth side by side: what a film of this shape can do.\n\n"
     "Static curves over the eccentricity (Sommerfeld number, attitude angle, side flow, friction, "
     "temperature rise, largest pressure); stiffness and damping over Sommerfeld number and speed; the speed "
-    "up to which a rigid rotor is stable; the pressure over the film as a picture. No FMU is built."
+    "up to which a rigid rotor is stable; the pressure over the film as a picture, of a mass-conserving film "
+    "its content, too. Of a train or scenario, or of a TOML file of its own: speed, load, the table bearing "
+    "with the keys of a train's bearing, and film. No FMU is built."
 )
 REDUCTIONS_HELP = (
     "What a reduction costs: each beside the unreduced train.\n\n"

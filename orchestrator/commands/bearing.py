@@ -1,4 +1,4 @@
-"""``bladeloss bearing``: one bearing of a train on its own, at every depth side by side."""
+"""``bladeloss bearing``: one bearing, of a train or of a file of its own, at every depth side by side."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.bearing import BearingStudy, film_depths, study_bearing
 from orchestrator.linear.case import HERTZ, LinearCase, linear_case, write_results
+from orchestrator.linear.lone import lone_case
 from orchestrator.linear.tables import table_of
 from orchestrator.results.figures.bearing import coefficients_figure, curves_figure, pressure_figure
 from orchestrator.scenario.parameters import bearing_parameters
@@ -48,10 +49,13 @@ def run(
     OrchestratorError
         For anything wrong with the input.
     """
-    case = linear_case(request, console)
+    lone = lone_case(request, console)
+    case, given = (linear_case(request, console), load) if lone is None else lone
     seat = _seat(case, name)
     train, speed = case.train, case.train.speed if hertz is None else HERTZ * hertz
-    carried = target_loads(train)[train.bearings.index(seat)] if load is None else load
+    carried = given if load is None else load
+    if carried is None:
+        carried = target_loads(train)[train.bearings.index(seat)]
     if carried == 0.0:
         raise OrchestratorError(f"bearing {seat.name} carries no load; name one with --load")
     force = -carried * np.asarray(train.upwards, dtype=float)

@@ -152,8 +152,14 @@ def _pressure(bearing: Bearing, load: Array, speed: float) -> xr.Dataset | None:
     found = bearing.pressure(load.tolist(), speed)
     if found is None:
         return None
+    fields: dict[str, Any] = {
+        "pressure": (("angle", "z"), found.pressure, {"units": "Pa", "long_name": "film pressure"})
+    }
+    if found.content is not None:
+        words = {"units": "1", "long_name": "share of the gap that oil fills"}
+        fields["content"] = (("angle", "z"), found.content, words)
     return xr.Dataset(
-        {"pressure": (("angle", "z"), found.pressure, {"units": "Pa", "long_name": "film pressure"})},
+        fields,
         {
             "angle": ("angle", np.degrees(found.angle), {"units": "deg", "long_name": "angle from x to y"}),
             "z": ("z", found.z, {"units": "m", "long_name": "axial position"}),

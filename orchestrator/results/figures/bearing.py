@@ -124,22 +124,36 @@ def _entries(axes: Axes, data: xr.Dataset, name: str, over: str, scale: np.ndarr
 
 
 def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray) -> Figure:
-    """The film unrolled: pressure over angle and width."""
-    figure = style.new_figure(11.0, 4.6, "Pressure over the film, as V1 solves it, under the load", title)
-    axes = figure.subplots()
-    angle, z = pressure["angle"].values, 1e3 * pressure["z"].values
+    """The film unrolled: pressure over angle and width, of a mass-conserving film its content, too."""
+    both = "content" in pressure
+    figure = style.new_figure(
+        11.0, 8.0 if both else 4.6, "Pressure over the film, as V1 solves it, under the load", title
+    )
+    panels = figure.subplots(2 if both else 1, squeeze=False)[:, 0]
+    values = 1e-6 * pressure["pressure"].values
+    top = max(float(values.max()), 1e-9)
+    _unroll(panels[0], pressure, values, top, "pressure [MPa]", "viridis")
+    panels[0].set_title("dotted: direction of the load", fontsize=style.FONT, loc="left")
+    if both:
+        text = "share of the gap that oil fills [1]"
+        _unroll(panels[1], pressure, np.clip(pressure["content"].values, 0.0, 1.0), 1.0, text, "cividis")
+    for axes in panels:
+        direction = np.degrees(np.arctan2(load[1], load[0]))
+        axes.axvline(direction, color=style.EVENT, linewidth=1.2, linestyle=":")
+    panels[-1].set_xlabel("angle from x (sideways) to y (up) [deg]")
+    return figure
+
+
+def _unroll(axes: Axes, data: xr.Dataset, values: np.ndarray, top: float, label: str, colours: str) -> None:
+    """Values over angle and width."""
+    angle, z = data["angle"].values, 1e3 * data["z"].values
     # the ring is closed, so that nothing is missing where the angle begins anew
     around = np.concatenate((angle[-1:] - 360.0, angle, angle[:1] + 360.0))
-    values = 1e-6 * pressure["pressure"].values[np.r_[-1, : angle.size, 0]]
-    top = max(float(values.max()), 1e-9)
+    values = values[np.r_[-1, : angle.size, 0]]
     levels = np.linspace(0.0, top, 25)
-    filled = axes.contourf(around, z, values.T, levels=levels, cmap="viridis")
+    filled = axes.contourf(around, z, values.T, levels=levels, cmap=colours)
     axes.contour(around, z, values.T, levels=levels[4::4], colors="#FFFFFF", linewidths=0.5)
-    figure.colorbar(filled, ax=axes, label="pressure [MPa]", ticks=np.linspace(0.0, top, 6), format="%.3g")
-    axes.axvline(np.degrees(np.arctan2(load[1], load[0])), color=style.EVENT, linewidth=1.2, linestyle=":")
-    axes.set_title("dotted: direction of the load", fontsize=style.FONT, loc="left")
+    axes.figure.colorbar(filled, ax=axes, label=label, ticks=np.linspace(0.0, top, 6), format="%.3g")
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks(np.arange(-180, 181, 45))
-    axes.set_xlabel("angle from x (sideways) to y (up) [deg]")
     axes.set_ylabel("axial position [mm]")
-    return figure

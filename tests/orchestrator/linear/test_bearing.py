@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -15,6 +17,7 @@ from rotor_fmu.train.file import load_train
 from tests.faults import fault
 
 LEMON = "tests/examples/lemon"
+ROOT = Path(__file__).parents[3]
 
 
 def investigate(source, folder, console=None, **options):
@@ -67,3 +70,30 @@ def test_no_bearing(tmp_path):
     with pytest.raises(OrchestratorError, match="v3: bearing parameter bore: the short film"):
         investigate(LEMON, tmp_path / "out", depths=("v3",))
     assert not (tmp_path / "out").exists()
+
+
+def test_a_bearing_of_its_own_file(tmp_path):
+    folder = tmp_path / "out"
+    assert investigate("tests/examples/bearing/dam.toml", folder, depths=("v2",)) == 0
+    text = (folder / "bearing.txt").read_text()
+    assert "dam of dam: d 0.2 m" in text and "50 Hz, 12 kN" in text
+    film = xr.load_dataset(folder / "pressure.nc")
+    dam = film["pressure"].sel(angle=slice(60.0, 170.0))
+    assert float(dam.max()) > 2e5  # what builds up before its end presses down
+
+
+@fault(
+    "input",
+    "a bearing's file with a wrong setting of its film",
+    "exit 2; file, key, value and what is allowed",
+    guard="orchestrator.linear.lone:lone_case",
+)
+def test_no_such_film(tmp_path):
+    path = tmp_path / "own.toml"
+    text = (ROOT / "tests/examples/bearing/dam.toml").read_text()
+    path.write_text(text.replace("columns = 72", "columns = 7"))
+    with pytest.raises(OrchestratorError, match="film: columns = 7; allowed is a number of at least"):
+        investigate(str(path), tmp_path / "out")
+    path.write_text(text.replace("viscosity", "viscositee"))
+    with pytest.raises(OrchestratorError, match="viscositee: unknown key; did you mean 'viscosity'"):
+        investigate(str(path), tmp_path / "out")
