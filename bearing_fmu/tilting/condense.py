@@ -42,6 +42,8 @@ def _solved(
         return first / a, 0.0j
     d += spring
     whole = a * d - b * c
+    if whole == 0.0:  # next to no film
+        return first / a, 0.0j
     return (first * d - b * second) / whole, (a * second - c * first) / whole
 
 

@@ -196,6 +196,15 @@ def test_stiff_pivots_are_rigid_ones_and_soft_ones_give_way():
     assert soft[8] < 2.0 / 1e-8  # the springs of two pivots
 
 
+@pytest.mark.parametrize("reach", [0.2, 0.5, 0.8, 1.0])
+def test_elastic_pivots_at_rest_in_any_direction(reach):
+    """Also where some pads carry next to nothing."""
+    bearing = film(bore=to_text(tilting(4, 80.0 * DEG, 0.2, 0.55, compliance=2e-10)))
+    for angle in (-1.5, -1.2, -0.8):
+        out, _ = at_rest(bearing, [reach * math.cos(angle), reach * math.sin(angle), 0.0, 0.0])
+        assert np.all(np.isfinite(out)) and out[1] > 0.0
+
+
 def test_turned_back_the_pads_are_mirrored():
     forth, back = (film(bore=to_text(tilting(4, 80.0 * DEG, 0.1))) for _ in range(2))
     here, there = at_rest(forth, [0.1, -0.5, 0, 0]), at_rest(back, [-0.1, -0.5, 0, 0], speed=-1.0)
