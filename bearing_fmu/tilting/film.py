@@ -15,7 +15,7 @@ from bearing_fmu.evaluate import CONTACT
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.outputs import HOTTEST, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.status import OK
+from bearing_fmu.status import NO_SOLUTION, OK
 from bearing_fmu.tilting.balance import Balance
 from bearing_fmu.tilting.condense import add_condensed
 from bearing_fmu.tilting.pad import Pad
@@ -142,6 +142,8 @@ class TiltingFilm(Film):
             out[_FIRST_TILT + k] = now[k, 0, 0] / p.radius
         self._set_constant(inputs, out)
         self._conclude(inputs, offset, out)
+        if not np.isfinite(out).all():
+            return NO_SOLUTION, state
         return OK, now.ravel()
 
     def _add(self, one: Floats, grip: float, slides: float, total: Floats) -> None:
