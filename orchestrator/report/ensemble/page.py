@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from pathlib import Path
 
@@ -40,8 +41,18 @@ SECTIONS = {
 _COLUMNS = ("worst_share", "least_gap_min", "contact_max", "force_max")
 
 
-def study_page(data: xr.Dataset, folder: Path) -> str:
-    """The text of the page; results of the worst runs are linked where they lie in the study's folder."""
+def study_page(data: xr.Dataset, folder: Path, place: Path | None = None) -> str:
+    """The text of the page; the worst runs are linked where their results lie in the study's folder.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of the study.
+    folder : Path
+        Of the study.
+    place : Path, optional
+        Folder of the page; by default that of the study.
+    """
     panels = [*fragility(data), *maps(data), *sensitivities(data)]
     ids = {f"p{k}": panel for k, panel in enumerate(panels)}
     title = str(data.attrs.get("title", "")) or folder.name
@@ -49,13 +60,15 @@ def study_page(data: xr.Dataset, folder: Path) -> str:
     links = [tag("a", SECTIONS[key][0], href=f"#{key}") for key in used]
     nav = tag("nav", tag("div", *links, tag("a", "The worst runs", href="#worst")))
     parts = [_section(key, {n: p for n, p in ids.items() if p.section == key}) for key in used]
-    body = joined([_header(title, data), nav, tag("main", *parts, _worst(data, folder)), _footer(data)])
+    body = joined(
+        [_header(title, data), nav, tag("main", *parts, _worst(data, folder, place or folder)), _footer(data)]
+    )
     return document(title, body, ids)
 
 
 def write_study_report(data: xr.Dataset, folder: Path, path: Path) -> Path:
     """Write the page of a study; raises as `orchestrator.report.write.write_report`."""
-    return write_whole(path, lambda: study_page(data, folder).encode())
+    return write_whole(path, lambda: study_page(data, folder, path.parent).encode())
 
 
 def _header(title: str, data: xr.Dataset) -> Markup:
@@ -90,7 +103,7 @@ def _section(key: str, own: dict[str, Panel]) -> Markup:
     return tag("section", *parts, id=key)
 
 
-def _worst(data: xr.Dataset, folder: Path) -> Markup:
+def _worst(data: xr.Dataset, folder: Path, place: Path) -> Markup:
     """The worst runs that have results of their own, the worst first, and those without a result."""
     names = str(data.attrs["parameters"]).split()
     figures = [name for name in _COLUMNS if name in data]
@@ -103,7 +116,7 @@ def _worst(data: xr.Dataset, folder: Path) -> Markup:
         page = folder / WORST / name / "report.html"
         text: str = f"{sample} {depth}"
         if page.is_file():
-            text = tag("a", text, href=f"{WORST}/{name}/report.html")
+            text = tag("a", text, href=Path(os.path.relpath(page, place)).as_posix())
         cells = [text, *(_cell(data[n].values[sample]) for n in names)]
         cells += [_cell(shown(data, figure, depth)[0][sample]) for figure in figures]
         limit = str(data["worst_limit"].values[sample, depths.index(depth)]) if "worst_limit" in data else ""
