@@ -82,8 +82,9 @@ def _header(title: str, data: xr.Dataset) -> Markup:
         key = tag("span", klass="key", style=f"border-color:{level.colour}")
         parts = [tag("h3", key, level.name)]
         if CONTACT in data:
-            middle, low, high = point(level, np.arange(level.contact.size))
-            chance = f"Contact in {100 * middle:.1f} % of the samples"
+            _, low, high = point(level, np.arange(level.contact.size))
+            known = level.contact[np.isfinite(level.contact)]
+            chance = f"Contact in {int(known.sum())} of {known.size} runs with a result"
             bounds = f"95 %: {100 * low:.1f} to {100 * high:.1f} %"
             parts += [tag("p", tag("span", chance, klass="action")), tag("p", bounds)]
         cards.append(tag("div", *parts, tag("dl", *facts), klass="run"))

@@ -94,7 +94,7 @@ def test_the_page_links_the_worst_runs_and_says_what_failed(tmp_path, monkeypatc
     assert 'href="worst/00038-v1/report.html">38 v1</a>' in page and "37 v1" in page
     assert 'href="../worst/00038-v1/report.html"' in study_page(study(), tmp_path, tmp_path / "elsewhere")
     assert "A &lt;study&gt;" in page and "ended &lt;by&gt; SIGKILL" in page
-    assert "1 runs ended otherwise than finished" in page and "Contact in 48.7 % of the samples" in page
+    assert "1 runs ended otherwise than finished" in page and "Contact in 19 of 39 runs with a result" in page
 
 
 def test_the_command_knows_a_study_and_what_it_does_not_show(tmp_path, capsys):
