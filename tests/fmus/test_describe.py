@@ -14,7 +14,7 @@ def test_the_tables_of_the_readme_match_the_port():
 def test_every_variable_stands_in_the_tables(small_train):
     text = describe.README.read_text(encoding="utf-8")
     names = [b.name for b in small_train.bearings], [w.name for w in small_train.wheels]
-    indices = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c"}
+    indices = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c", "pad_tilt": "p"}
     for variable in (*port.BEARING, *port.rotor(*names, small_train.nodes)):
         name = re.sub(r"(\w+)\[[\d,]+\]", lambda m: f"{m[1]}[{indices[m[1]]}]", variable.name)
         assert f"| `{name}` | {variable.causality} |" in text
@@ -27,10 +27,13 @@ def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
         "contact.friction",
         "layer.poisson",
         "feed_content",
+        "full_film",
+        "film.whirl",
         "wiped",
         "contact_area",
         port.RELEASED,
         port.VACUUM_BROKEN,
+        "losses.come",
     }
     for variable in (*port.BEARING, *port.rotor(["b"], ["w"], 2)):
         assert variable.description

@@ -10,8 +10,8 @@ from fmus.unit.layout import Layout
 
 def test_blocks_of_the_bearing():
     layout = Layout(port.BEARING)
-    assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 75))
-    assert layout.parameters == slice(75, len(port.BEARING) - 1)
+    assert (layout.inputs, layout.outputs) == (slice(0, 17), slice(17, 85))
+    assert layout.parameters == slice(85, len(port.BEARING) - 1)
     assert layout[port.FAILURE.name] == len(port.BEARING) - 1
     assert layout.block("journal.x", "journal.tilt_rate_y") == slice(0, 8)
 
@@ -19,8 +19,8 @@ def test_blocks_of_the_bearing():
 def test_blocks_of_a_rotor():
     variables = port.rotor(("front", "rear"), ("wheel",), 5)
     layout = Layout(variables)
-    assert layout.inputs == slice(0, 1 + 2 * 36 + 2 + 2)
-    assert layout.outputs == slice(77, 77 + 16 + 1)
+    assert layout.inputs == slice(0, 1 + 2 * 36 + 3 + 2)
+    assert layout.outputs == slice(78, 78 + 16 + 1)
     assert {variables[i].name for i in layout.lazy["extremes"]} == {
         "amplitude.max",
         "amplitude.max_z",
