@@ -13,6 +13,7 @@ from rich.console import Console
 from orchestrator.case.case import Case, folder_case, ssp_case
 from orchestrator.case.checkpoint_folder import check_checkpoint
 from orchestrator.case.request import RunRequest
+from orchestrator.case.watched import part
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import do_ahead, ensure_fmus
 from orchestrator.fmi.trust import require_trust
@@ -65,6 +66,8 @@ def prepare(
         known = vouched(saved.about.get("trusted", {})) if saved is not None else ()
         foreign = case.units.foreign(case.scenario)
         trusted = require_trust(foreign, trust=request.trust, known=known)
+        if trusted:
+            part()
         if not request.is_ssp:
             needed = needed_depths(case.scenario, case.train)
             ensure_fmus(request.fmus, case.train, needed, console)

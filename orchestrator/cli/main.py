@@ -117,7 +117,10 @@ def info(
 
 def main() -> None:
     """Entry point of the command."""
-    sys.exit(app())
+    from orchestrator.case.watched import command
+
+    with command():
+        sys.exit(app())
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ from orchestrator.results.certificate import Certificate
 from orchestrator.results.film_regime import FilmRegime, regimes
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import LedgerSummary, ledger_of
+from orchestrator.results.missing_values import MissingValues, missing_values
 from orchestrator.results.quantities import HERTZ
 from orchestrator.results.result import Result, Timing
 from orchestrator.results.statistics import (
@@ -116,6 +117,8 @@ class RunSummary:
         Whether the films are laminar, by bearing.
     certificate : Certificate or None
         What halving the step changes, if that was asked for.
+    missing : tuple of MissingValues
+        What bearings did not give as a number at some instants; statistics leave it out.
     """
 
     title: str
@@ -145,6 +148,7 @@ class RunSummary:
     films: tuple[FilmRegime, ...] = ()
     certificate: Certificate | None = None
     least_damped: Stability | None = None
+    missing: tuple[MissingValues, ...] = ()
 
     def of_phase(self, phase: Phase) -> tuple[BearingStatistics, ...]:
         """Statistics of all bearings in one phase."""
@@ -237,6 +241,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         bearings=tuple(bearings),
         films=regimes(record),
         least_damped=_stability(record),
+        missing=missing_values(record) if samples else (),
     )
 
 

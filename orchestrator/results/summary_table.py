@@ -15,6 +15,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.results.certificate import CERTIFIED, Certificate
 from orchestrator.results.film_regime import regime_text
 from orchestrator.results.ledger import LedgerSummary
+from orchestrator.results.missing_values import missing_text
 from orchestrator.results.quantities import AMPLITUDE, CONTACT_PRESSURE, FORCE, GAP, MOMENT, STRESS
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.results.summary import RunSummary
@@ -185,6 +186,8 @@ def _facts(summary: RunSummary) -> Table:
     rows.append(("contact", _contact_text(summary)))
     if summary.films:
         rows.append(("films", regime_text(summary.films)))
+    if summary.missing:
+        rows.append(("missing", Text(missing_text(summary.missing), style="bold red")))
     for name, text in rows:
         facts.add_row(name, text)
     return facts

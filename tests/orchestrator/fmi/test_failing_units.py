@@ -53,6 +53,22 @@ def test_a_bearing_without_a_gap(faulty, run, tmp_path):
 
 @fault(
     "unit",
+    "an own bearing whose gap is no number at some instants",
+    "left out of the statistics; bearing, quantity, how often and since when in the summary",
+    guard="orchestrator.results.missing_values:missing_values",
+)
+def test_a_gap_that_is_missing_now_and_then_is_told(faulty, run, tmp_path):
+    result = run(faulty, "one gap")
+    assert result.exit_code == 0, result.output
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    (missing,) = [one for one in summary["missing"] if one["quantity"] == "least_gap"]
+    assert missing["bearing"] == "rear" and 1 <= missing["count"] < missing["samples"]
+    text = " ".join((tmp_path / "out" / "summary.txt").read_text().split())
+    assert f"least_gap of rear in {missing['count']} of {missing['samples']} samples, first at " in text
+
+
+@fault(
+    "unit",
     "an FMU that returns a status that FMI does not know",
     "it counts as fatal: UnitError with outcome unit-failed",
     guard="orchestrator.fmi.unit:Unit._fail",

@@ -1,10 +1,12 @@
 """Trusted units that end the process or change it: no success without results, and no results elsewhere."""
 
+import signal
+
 import pytest
 
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
-from tests.orchestrator.process import done
+from tests.orchestrator.process import command, done
 
 SHORT = 'train = "small"\nend = 0.003\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
 
@@ -26,6 +28,43 @@ def test_no_success_without_results(how, status, faulty, small_fmus, tmp_path):
     code, said, errors = run(how, faulty, small_fmus, tmp_path)
     assert code == status, said + errors
     assert errors.startswith("error: ") and "Traceback" not in errors and not (tmp_path / "out").exists()
+
+
+@fault(
+    "unit",
+    "a trusted unit whose native code calls `_exit(0)`, or crashes",
+    "exit 8 by the parent process, which loads no unit",
+    guard="orchestrator.case.watched:part",
+)
+@pytest.mark.parametrize(("how", "said"), [("_exit", "with status 0"), ("signal", "by signal 11")])
+def test_no_end_past_all_guards(how, said, faulty, small_fmus, tmp_path):
+    code, _, errors = run(how, faulty, small_fmus, tmp_path)
+    assert code == 8
+    assert errors == f"error: a unit ended the process of the run {said}; there are no results\n"
+    assert not (tmp_path / "out").exists()
+
+
+PARTED = """
+import signal, sys, time
+from orchestrator.case import watched
+with watched.command():
+    watched.part()
+    def end(sent, _):
+        sys.exit(128 + sent)
+    for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(sent, end)
+    print("begun", flush=True)
+    time.sleep(20)
+"""
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_signals_reach_the_run_behind_its_parent(sent, tmp_path):
+    process = command(code=PARTED, cwd=tmp_path)
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(sent)
+    said, errors = process.communicate(timeout=20)
+    assert (process.returncode, said, errors) == (128 + sent, "", "")
 
 
 @fault(

@@ -3,6 +3,7 @@
 import ctypes
 import math
 import os
+import signal
 import sys
 import time
 
@@ -37,6 +38,10 @@ class FaultyBearing(SpringBearing):
             sys.exit(0)
         elif fault == "end":
             ctypes.pythonapi.Py_Exit(0)
+        elif fault == "_exit":  # of C: past Python and all its guards
+            ctypes.CDLL(None)._exit(0)
+        elif fault == "signal":
+            os.kill(os.getpid(), signal.SIGSEGV)
         elif fault == "folder":
             os.chdir("/")
             os.umask(0)
@@ -44,5 +49,7 @@ class FaultyBearing(SpringBearing):
         if fault == "nan":
             self.values.update(dict.fromkeys(OUTPUTS, math.nan))
         if os.environ.get("FAULT") == "gap":
+            self.values["h_min"] = math.nan
+        if os.environ.get("FAULT") == "one gap" and current_time >= BEGIN:
             self.values["h_min"] = math.nan
         return done
