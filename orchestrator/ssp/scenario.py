@@ -130,6 +130,9 @@ def _film_problems(contents: Contents) -> Iterator[str]:
                 key: str(value) if key == "bore" else float(value)
                 for key, value in ((key, value_of(contents, component, name)) for key, name in _FILM.items())
             }
+            warmed = values.get("viscosity_40") or values.get("viscosity_100")
+            for key in ("viscosity",) if warmed else ("viscosity_40", "viscosity_100"):
+                values.pop(key, None)  # a film has either a viscosity or the curve of its oil
             yield from (f"{component.name}: {text}" for text in film_problems(values))
 
 

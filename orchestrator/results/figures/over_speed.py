@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from orchestrator.results import statistics
 from orchestrator.results.figures import style
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ORDERS = {1.0: ("1X", "-"), 0.5: ("\u00bdX", ":"), 2.0: ("2X", "--")}
+_PLAIN = FuncFormatter(lambda value, _: f"{value:g}")
 _MINUTE = 30.0 / math.pi
 
 
@@ -69,6 +71,7 @@ def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Fig
                           fontsize=style.FONT - 2, color=colour)  # fmt: skip
             gaps.plot(speed[worst], gap[worst], "o", color=colour, markersize=4)
     degrees = math.degrees(probes_of(records[0])[0])
+    sizes.yaxis.set_major_formatter(_PLAIN)
     sizes.set_ylabel(f"amplitude at {degrees:.0f}\u00b0 [\u00b5m]")
     phase.set_ylabel("phase of 1X [\u00b0]")
     phase.set_ylim(-180.0, 180.0)
