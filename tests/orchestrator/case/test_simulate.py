@@ -233,6 +233,11 @@ def test_fmi_tools_read_the_table(finished, tmp_path):
     force = finished.record["force"].sel(bearing="rear", axis="y")
     np.testing.assert_allclose(table["rear.force_y [N]"], force, rtol=1e-9)
     assert "vibration_amplitude_max [m]" in table.dtype.names
+    assert all(name.endswith("]") and " [" in name for name in table.dtype.names[1:])
+    lines = path.read_text().splitlines()  # FMI tools refuse a second row that is no numbers
+    path.write_text("\n".join([lines[0], ",".join("N" for _ in table.dtype.names), *lines[1:]]))
+    with pytest.raises(ValueError, match="could not convert"):
+        fmpy.util.read_csv(path)
 
 
 def test_a_failed_write_leaves_nothing(finished, tmp_path, monkeypatch):
