@@ -37,6 +37,7 @@ def sensitivities(data: xr.Dataset) -> Iterator[Panel]:
 def _panel(figure: str, words: str, traces: list[Trace]) -> Panel:
     shape = layout(
         xaxis=axis(words, zeroline=True), yaxis=axis("", autorange="reversed"), barmode="group",
+        margin={"l": 62, "r": 14, "t": 34, "b": 44},
         showlegend=len(traces) > 1,
     )  # fmt: skip
     return Panel("sensitivity", figure.replace("_", " "), traces, shape, height=300)
