@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from bearing_fmu.film import make_film
+from bearing_fmu.static.pressure import pressure_map
 from fmus.port.bore import Arc, from_text, grooved, lobes, pocketed, to_text
 from tests.bearing_fmu.bearings import lever, plain, respond
 
@@ -62,7 +63,9 @@ def test_aligned_film_is_the_tilted_one_and_its_tangent_is_exact(bore):
 def test_a_fed_pocket_lifts_a_journal_at_rest():
     p = plain(0.6, bore=to_text(HOLE), columns=72, feed_pressure=1e5, rows=12)
     found = respond(make_film("v2", p), [0.0] * 4, speed=1e-9)
-    assert found.p_max == pytest.approx(1e5, rel=0.02)
+    nodes = pressure_map(p, np.zeros(4), np.zeros(4), 1e-9).pressure
+    assert nodes.max() == pytest.approx(1e5, rel=1e-6)
+    assert found.p_max < 1.1e5  # the axial polynomial swings over at the edge of the pocket
     assert abs(found.wrench[0]) < 1e-6 * found.wrench[1]
     pocket = 1e5 * 0.5 * p.width * p.diameter * math.sin(20.0 * DEG)
     assert pocket < found.wrench[1] < 3.0 * pocket
