@@ -4,10 +4,10 @@ The oil flows as in a laminar film whose resistance 12 eta / h^3 is larger, and 
 
     k_around = 12 + 0.0136 Re^0.90,   k_along = 12 + 0.0043 Re^0.96,   tau = (1 + 0.0012 Re^0.94) eta U / h
 
-with Re = rho U h / eta of the gap open to the oil (Constantinescu 1962, J. Basic Eng. 84, 139, from Prandtl's
-mixing length; fits of Constantinescu and Galetuse 1974, as Frene et al. 1990, Hydrodynamic Lubrication, give
-them).  They go on smoothly to the laminar film, and need no threshold; Taylor's vortices begin at
-Re = 41.1 sqrt(R / C) of the clearance (Taylor 1923).
+with Re = rho U h / eta of the gap open to the oil: the fits that are quoted after Constantinescu (1962, J.
+Basic Eng. 84, 139; Constantinescu and Galetuse 1974; Frene et al. 1990, Hydrodynamic Lubrication), here
+from memory, not held against a printed table.  They go on smoothly to the laminar film, and need no
+threshold; Taylor's vortices begin at Re = 41.1 sqrt(R / C) of the clearance (Taylor 1923).
 """
 
 from __future__ import annotations
