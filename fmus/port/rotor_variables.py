@@ -197,7 +197,8 @@ def rotor(
     for name, unit, text, nominal in _SUMMARY:
         summary = Variable(name, "output", unit, text, minimum=0.0, nominal=nominal, lazy="extremes")
         variables.append(replace(summary, starts_on=shape))
-    variables.extend(replace(v, starts_on=() if v.name in WORK else shape) for v in BALANCE)
+    started = {**dict.fromkeys(WORK, ()), "energy.rotation": (*shape, "drive.inertia")}
+    variables.extend(replace(v, starts_on=started.get(v.name, shape)) for v in BALANCE)
     variables.extend((*_ROTOR_PARAMETERS, *DRIVE_PARAMETERS))
     for i, name in enumerate(bearings, 1):
         variables.extend(_seat(i, name))
