@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.bore.bore import Bore
 from bearing_fmu.film import Film
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
@@ -85,7 +86,7 @@ def pressure_map(
         status = film.solver.kernel(inputs, film.offset, np.zeros(OUTPUTS), *data)
         if status:
             raise film.failure(status, inputs, film.offset)
-        return _map_of(parameters, work)
+        return _map_of(parameters, work, data[2])
     finally:
         if fed_at is not None:
             work.held[:, fed_at] = 0.0  # other films share the work space
@@ -134,7 +135,7 @@ def _conserving(parameters: BearingParameters, q: Floats, v: Floats, speed: floa
     return PressureMap(np.sort(angle), z, pressure[grid], float(out[OIL_FLOW]), content[grid])
 
 
-def _map_of(parameters: BearingParameters, work: TiltedFilm) -> PressureMap:
+def _map_of(parameters: BearingParameters, work: TiltedFilm, bore: Bore) -> PressureMap:
     """What an evaluation has left in a work space."""
     m, n = parameters.columns, parameters.rows
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
@@ -144,8 +145,10 @@ def _map_of(parameters: BearingParameters, work: TiltedFilm) -> PressureMap:
     columns = work.rings[0]
     outwards = -work.pressures[0, 3 * n : 3 * n + 2, :m] / axial_basis(n).stretch[-2:, None]
     outwards[0] *= -1.0
-    open_ = work.column[OPEN, n : n + 2, :m]
-    flow = float((np.maximum(outwards, 0.0) * open_**3 * columns[METRIC]).sum()) * 2.0 * np.pi / m
+    open_, metric = work.column[OPEN, n : n + 2, :m], columns[METRIC, :m].copy()
+    if bore is not None:
+        metric[bore.held] = 0.0  # grooves are closed at their ends
+    flow = float((np.maximum(outwards, 0.0) * open_**3 * metric).sum()) * 2.0 * np.pi / m
     flow *= parameters.clearance * parameters.radius**3 / parameters.width
     angle = np.arctan2(columns[SIN], columns[COS])
     around, along = np.argsort(angle), np.argsort(work.nodes)

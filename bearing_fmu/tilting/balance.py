@@ -13,7 +13,8 @@ touches there; between these bounds its root is bracketed, and found by Newton's
 tangent, or by bisection where that leaves the bracket.  Of several roots, as where a feed pressure presses a
 pad's leading edge to the journal, the one with the smallest film at its trailing edge counts at rest, and the
 next in motion.  Where the film carries nothing, the moment vanishes over a range of tilts: at rest such a pad
-takes the one at which it would begin to carry; in motion it stays until the film takes hold of it.
+takes the one at which it would begin to carry; in motion it goes on as it moved until the film takes hold of
+it.
 """
 
 from __future__ import annotations

@@ -48,6 +48,15 @@ def test_side_flow_of_a_narrow_bearing_is_that_of_the_short_one():
     assert 0.0 < missed[1] < 0.02 and missed[1] < missed[0]
 
 
+def test_grooves_let_nothing_out_at_their_ends():
+    """Their pressure is above that beyond them, but they end in the bore; the unit counts so, too."""
+    cut = to_text(grooved(lobes(1, 0.0), [(middle, math.radians(20.0)) for middle in (0.0, math.pi)]))
+    p = plain(0.6, columns=96, rows=16, bore=cut, feed_pressure=5e5)
+    q, speed = np.array([0.2e-3, -0.5e-3, 0.0, 0.0]), 1.0
+    found = pressure_map(p, q, STILL, speed).side_flow
+    assert found == pytest.approx(make_film("v1", p).respond(q, STILL, speed).oil_flow, rel=0.05)
+
+
 def test_map_holds_the_pressure_that_the_film_has():
     p = replace(TURBINE, columns=96, rows=15)
     q = np.array([0.3, -0.6, 0.0, 0.0]) * p.clearance
