@@ -160,21 +160,20 @@ class BoreKeys(Entry):
     def _fixed(self) -> Bore:
         """The arcs before grooves and pockets are cut."""
         word, preload = self.bore, self.preload
-        if preload != 0.0 and (word not in WORDS or self.arcs is not None):
-            raise ValueError(f"preload = {preload!r}; allowed for bore = {word[:20]!r} is 0")
-        if self.arcs is not None:
-            if word != PLAIN:
-                raise ValueError(f"bore = {word!r} beside arcs; allowed is one of them")
-            return tuple(_arc(*row) for row in self.arcs)
-        if word in WORDS:
+        if word in WORDS and self.arcs is None:
             count, usual = WORDS[word]
             if preload <= 0.0:
                 text = "is more than 0, to 0.95"
                 raise ValueError(f"preload = {preload!r}; allowed for bore = {word!r} {text}")
             return lobes(count, preload, usual if self.offset is None else self.offset, self.first)
-        if word == PLAIN:
-            return lobes(1, 0.0) if self.grooves else ()
-        return _of_text(word)
+        bore = _of_text(word) if word != PLAIN and word not in WORDS else ()
+        if self.arcs is not None and word != PLAIN:
+            raise ValueError(f"bore = {word[:20]!r} beside arcs; allowed is one of them")
+        if preload != 0.0:
+            raise ValueError(f"preload = {preload!r}; allowed for bore = {word[:20]!r} is 0")
+        if self.arcs is not None:
+            return tuple(_arc(*row) for row in self.arcs)
+        return lobes(1, 0.0) if word == PLAIN and self.grooves else bore
 
 
 KEYS = frozenset(BoreKeys.model_fields)

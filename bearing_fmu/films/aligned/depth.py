@@ -21,7 +21,6 @@ from bearing_fmu.films.tilted.depth import LAYERED
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.result import RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
 from bearing_fmu.tilting.film import TiltingFilm
@@ -35,7 +34,7 @@ def _solve(
     film: AlignedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
     reynolds = scales.reynolds * abs(speed)
-    change, usual = np.empty(8), np.empty(RESULTS)
+    change, usual = film.blend[:8], film.blend[8:]
     share = leaving(q, v, speed, change) if bore is None else 0.0
     for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
         part = SPREAD if spread == 1 else 1.0

@@ -10,7 +10,7 @@ from scipy.linalg import eigh
 
 from bearing_fmu.kernels.axial import axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
-from bearing_fmu.result import FIELDS
+from bearing_fmu.result import FIELDS, RESULTS
 
 Floats = NDArray[np.float64]
 
@@ -32,6 +32,7 @@ class AlignedFilm(NamedTuple):
     modal: Floats  #: (3, m, r) the pressure and two adjoint ones
     factor: Floats  #: (m, 2, r) reciprocal pivots and coupling to the last column
     forcing: Floats  #: (8, m) work space
+    blend: Floats  #: (8 + RESULTS,) work space of two grids, see `films.corners`
 
 
 def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
@@ -60,4 +61,5 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         modal=np.zeros((3, columns, even.size)),
         factor=np.zeros((columns, 2, even.size)),
         forcing=np.zeros((8, columns)),
+        blend=np.zeros(8 + RESULTS),
     )

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bearing_fmu.kernels.axial import axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.kernels.vector import padded
-from bearing_fmu.result import FIELDS
+from bearing_fmu.result import FIELDS, RESULTS
 from bearing_fmu.stock import Stock
 
 Floats = NDArray[np.float64]
@@ -55,6 +55,7 @@ class TiltedFilm(NamedTuple):
     sides: Floats  #: (4 m n',) right-hand sides, then solutions
     block: Floats  #: (n n',) work space
     row: Floats  #: (8 n',) work space
+    blend: Floats  #: (8 + RESULTS,) work space of two grids, see `films.corners`
 
 
 def work_space(columns: int, rows: int) -> dict[str, Floats]:
@@ -75,6 +76,7 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
         "sides": np.zeros(4 * columns * width),
         "block": np.zeros(rows * width),
         "row": np.zeros(8 * width),
+        "blend": np.zeros(8 + RESULTS),
     }
 
 
