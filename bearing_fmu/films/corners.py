@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 SPREAD = 0.3
 # Where the shares begin and end: of the cosine between (u, w) and the way off the wall, and of the squared
 # eccentricity; of how much more of the drive is the tilt's, (tilt^2 - centre^2) / (tilt^2 + centre^2).
-_AWAY, _FAR = (0.45, 0.8), (0.25, 0.5)
+_AWAY, _FAR = (0.35, 0.85), (0.25, 0.5)
 _TILTED = (0.65, 0.85)
 
 
