@@ -39,7 +39,7 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
         traces: list[Trace] = []
         shown = layout(
             showlegend=True,
-            legend={"orientation": "h", "x": 1, "xanchor": "right", "y": 1.07, "yanchor": "bottom"},
+            legend={"orientation": "h", "x": 0.8, "xanchor": "right", "y": 1.0, "yanchor": "bottom"},
             margin={"l": 62, "r": 14, "t": 46, "b": 44},
             **order_lines(having[0], HIGHEST),
         )
