@@ -30,6 +30,10 @@ EXTREMES = ("least_gap", "contact_force", "force")
 """Of a revolution, at the ends of its steps: the least, and the largest two."""
 _TURN = 2.0 * math.pi
 _ROWS = 256
+_KEPT = ("times", "speeds", "amplitudes", "overall", "extremes")
+"""Arrays with a row a revolution."""
+_GOING_ON = ("before", "sum", "last", "range", "most")
+"""Those of the revolution that is going on."""
 
 
 class Revolutions(Observer):
@@ -119,7 +123,7 @@ class Revolutions(Observer):
         self._most[:] = self._now()
 
     def _grow(self) -> None:
-        for name in ("times", "speeds", "amplitudes", "overall", "extremes"):
+        for name in _KEPT:
             old = getattr(self, f"_{name}")
             new = np.empty((2 * len(old), *old.shape[1:]), dtype=old.dtype)
             new[: len(old)] = old
@@ -127,9 +131,8 @@ class Revolutions(Observer):
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
-        rows = ("times", "speeds", "amplitudes", "overall", "extremes")
-        now = {name: getattr(self, f"_{name}") for name in ("before", "sum", "last", "range", "most")}
-        kept = {name: getattr(self, f"_{name}")[: self.size] for name in rows}
+        now = {name: getattr(self, f"_{name}") for name in _GOING_ON}
+        kept = {name: getattr(self, f"_{name}")[: self.size] for name in _KEPT}
         return {**kept, **now, "turn": np.array([self._angle, self._began])}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
@@ -137,9 +140,9 @@ class Revolutions(Observer):
         self.size = len(arrays["times"])
         while len(self._times) < self.size:
             self._grow()
-        for name in ("times", "speeds", "amplitudes", "overall", "extremes"):
+        for name in _KEPT:
             getattr(self, f"_{name}")[: self.size] = arrays[name]
-        for name in ("before", "sum", "last", "range", "most"):
+        for name in _GOING_ON:
             getattr(self, f"_{name}")[:] = arrays[name]
         self._angle, self._began = arrays["turn"].tolist()
 
