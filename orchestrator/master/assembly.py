@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -43,14 +43,19 @@ class Part:
 
 
 def parts_in_folder(
-    scenario: Scenario, train: Train, fmus: Path, store: FmuStore, rotor: Train | None = None
+    scenario: Scenario,
+    train: Train,
+    fmus: Path,
+    store: FmuStore,
+    rotor: Train | None = None,
+    found: dict[str, Values] | None = None,
 ) -> Iterator[Part]:
     """Yield rotor and bearings of a scenario; a user's own bearing may do without some parameters.
 
     Where depth linear has no stiffness and damping from the train, it has those of the film of
     `Scenario.linear_from` at the static equilibrium on these films, which is found here; and so is the
     viscosity of oils whose temperature is not given. `rotor` is a train with the same shaft, whose rotor
-    serves.
+    serves; `found` is what `found_parameters` has returned for an equal start.
 
     Raises
     ------
@@ -59,12 +64,26 @@ def parts_in_folder(
     EquilibriumError
         When films that are to be linearised find none.
     """
-    warm = _warm_parameters(scenario, train, fmus, store)
-    for part in _parts(scenario, train, fmus, store, rotor):
-        yield replace(part, parameters=part.parameters | warm.get(part.name, {}))
+    own = found_parameters(scenario, train, fmus, store) if found is None else found
+    yield from _parts(scenario, train, fmus, store, own, rotor)
 
 
-def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> dict[str, Values]:
+def found_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuStore) -> dict[str, Values]:
+    """Parameters by bearing that follow from an equilibrium: of depth linear, viscosities of warm oils.
+
+    Raises
+    ------
+    FmuError, EquilibriumError
+        As `parts_in_folder`.
+    """
+    linear = _linear_parameters(scenario, train, fmus, store)
+    warm = _warm_parameters(scenario, train, fmus, store, linear)
+    return {name: linear.get(name, {}) | warm.get(name, {}) for name in {**linear, **warm}}
+
+
+def _warm_parameters(
+    scenario: Scenario, train: Train, fmus: Path, store: FmuStore, linear: dict[str, Values]
+) -> dict[str, Values]:
     """Viscosities by name of the bearings whose oil finds its temperature at the static equilibrium."""
     if not any(
         seat.oil is not None and scenario.depth_of(seat.name) != LINEAR.name for seat in train.bearings
@@ -73,7 +92,7 @@ def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuSto
     held = scenario.film.model_copy(update={"temperature": "held"})
     # statics go through the unreduced shaft, and oils are where they are told to be
     quick = scenario.model_copy(update={"reduction": "guyan", "film": held})
-    system = join(_parts(quick, train, fmus, store), quick, train.speed, fmus)
+    system = join(_parts(quick, train, fmus, store, linear), quick, train.speed, fmus)
     try:
         found = effective_viscosities(system, train, train.speed)
     except UnitError as error:
@@ -84,9 +103,14 @@ def _warm_parameters(scenario: Scenario, train: Train, fmus: Path, store: FmuSto
 
 
 def _parts(
-    scenario: Scenario, train: Train, fmus: Path, store: FmuStore, rotor: Train | None = None
+    scenario: Scenario,
+    train: Train,
+    fmus: Path,
+    store: FmuStore,
+    found: dict[str, Values],
+    rotor: Train | None = None,
 ) -> Iterator[Part]:
-    """Yield the units; viscosities of oils that find their temperature are first guesses."""
+    """Yield the units; viscosities of oils are first guesses where they are not among those found."""
     rotor_file = _built(rotor_recipe(rotor or train), fmus, store)
     yield Part("rotor", rotor_file, rotor_parameters(scenario, train))
     depths = {scenario.depth_of(seat.name) for seat in train.bearings}
@@ -96,10 +120,9 @@ def _parts(
         else _built(bearing_recipe(depth), fmus, store)
         for depth in sorted(depths)
     }
-    linear = _linear_parameters(scenario, train, fmus, store)
     for seat in train.bearings:
         file = files[scenario.depth_of(seat.name)]
-        values = bearing_parameters(seat, scenario.film) | linear.get(seat.name, {})
+        values = bearing_parameters(seat, scenario.film) | found.get(seat.name, {})
         yield Part(seat.name, file, {name: x for name, x in values.items() if name in file.variables})
 
 

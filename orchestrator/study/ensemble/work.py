@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import time
+from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -17,11 +19,14 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.folder import do_ahead, ensure_fmus
 from orchestrator.fmi.watchdog import Watchdog
-from orchestrator.master.assembly import Part, parts_in_folder
+from orchestrator.master.assembly import Part, found_parameters, parts_in_folder
+from orchestrator.master.rollback import forgets
+from orchestrator.master.start.equilibrium import Start
+from orchestrator.master.system import System
 from orchestrator.results.result import Result
 from orchestrator.results.verdicts.limits import ATTRIBUTE
-from orchestrator.scenario.parameters import needed_depths
-from orchestrator.scenario.scenario import Scenario
+from orchestrator.scenario.parameters import Values, needed_depths
+from orchestrator.scenario.scenario import Scenario, is_fmu
 from orchestrator.study.ensemble.bench import Bench
 from orchestrator.study.ensemble.keep import row_of
 from orchestrator.study.ensemble.row import REFUSED, Row
@@ -30,7 +35,42 @@ from rotor_fmu.train.train import Train
 
 _MOST = 24
 """Distinct FMUs that a process keeps extracted."""
+_STARTS = 256
+"""Starts that a process keeps."""
 _QUIET = Console(quiet=True)
+
+
+@dataclass
+class _Known:
+    """What runs of equal starts need not find again."""
+
+    parameters: dict[str, Values] | None = None
+    start: Start | None = None
+
+
+class _Starts:
+    """Starts of runs by what decides on them; runs that differ in what happens later share one."""
+
+    def __init__(self) -> None:
+        self._known: OrderedDict[str, _Known] = OrderedDict()
+
+    @property
+    def all(self) -> list[_Known]:
+        """What is known, the latest last."""
+        return list(self._known.values())
+
+    def of(self, scenario: Scenario, train: Train) -> _Known:
+        """What is known about the start of a scenario, to be completed."""
+        begins_broken = any(event.time == 0.0 for event in scenario.events)
+        if begins_broken or any(is_fmu(scenario.depth_of(seat.name)) for seat in train.bearings):
+            return _Known()
+        said = scenario.model_dump_json(exclude={"title", "events", "end"})
+        key = hashlib.sha256(f"{said}\n{train!r}".encode()).hexdigest()
+        found = self._known.setdefault(key, _Known())
+        self._known.move_to_end(key)
+        if len(self._known) > _STARTS:
+            self._known.popitem(last=False)
+        return found
 
 
 class _Extracted:
@@ -45,10 +85,8 @@ class _Extracted:
         needed = needed_depths(scenario, train)
         key = (str(fmus), repr(rotor), *sorted(needed))
         if key not in self._seen:
-            if self._store is not None and len(self._seen) >= _MOST:
-                self._store.close()
-                self._store = None
-                self._seen.clear()
+            if len(self._seen) >= _MOST:
+                self.close()
             ensure_fmus(fmus, rotor, needed, _QUIET)
             self._seen.add(key)
         do_ahead(scenario, train, needed, _QUIET)
@@ -56,16 +94,37 @@ class _Extracted:
             self._store = FmuStore()
         return self._store
 
+    def close(self) -> None:
+        """Remove what is extracted."""
+        if self._store is not None:
+            self._store.close()
+            self._store = None
+        self._seen.clear()
+
 
 @dataclass
 class _SharedUnits(FolderUnits):
     """Units whose rotor serves all trains that differ in the films of their bearings only."""
 
     rotor: Train = field(kw_only=True)
+    known: _Known = field(kw_only=True)
 
     def parts(self, scenario: Scenario) -> Iterator[Part]:
         """Return the units of the scenario's depths, with its parameters."""
-        return parts_in_folder(scenario, self.train, self.place, self.store, self.rotor)
+        if self.known.parameters is None:
+            self.known.parameters = found_parameters(scenario, self.train, self.place, self.store)
+        return parts_in_folder(
+            scenario, self.train, self.place, self.store, self.rotor, self.known.parameters
+        )
+
+    def find_start(self, system: System) -> Start:
+        """The equilibrium of the train on its films; films with a memory find it themselves."""
+        if self.known.start is not None:
+            return self.known.start
+        start = super().find_start(system)
+        if all(forgets(unit) for unit in system.bearings):
+            self.known.start = start
+        return start
 
 
 @dataclass(frozen=True)
@@ -107,7 +166,8 @@ class RunWork:
         try:
             extracted = bench.shared.setdefault("extracted", _Extracted())
             store = extracted.store_for(self.fmus, self.rotor, self.scenario, self.train)
-            units = _SharedUnits(self.train, self.fmus, store, self.speed, rotor=self.rotor)
+            known = bench.shared.setdefault("starts", _Starts()).of(self.scenario, self.train)
+            units = _SharedUnits(self.train, self.fmus, store, self.speed, rotor=self.rotor, known=known)
             case = Case(self.scenario, self.train, units)
             with Watchdog(self.budget, lambda hung: bench.give_up(self._row(hung, begin))) as watchdog:
                 result = carry_out(case, _QUIET, Execution(watchdog=watchdog))

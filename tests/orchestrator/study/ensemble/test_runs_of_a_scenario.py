@@ -14,6 +14,7 @@ from orchestrator.case.simulate import Execution, execute
 from orchestrator.results.ensemble.files import read_study
 from orchestrator.results.summary import summarise
 from orchestrator.scenario.file import load_with_train
+from orchestrator.study.ensemble.bench import Bench
 from orchestrator.study.ensemble.conduct import Means, plan_of
 from orchestrator.study.ensemble.file import read_study_file
 from orchestrator.study.ensemble.worst import worst_runs, write_inputs
@@ -77,3 +78,26 @@ def test_its_folder_holds_dataset_and_table(study):
 def test_the_worst_come_first(study):
     assert worst_runs(study[0], "force_max", 2) == [(1, "v3"), (0, "v3")]
     assert worst_runs(study[0], "least_gap_min", 1) == [(1, "v3")]
+
+
+def test_runs_that_begin_alike_share_their_equilibrium(small_fmus, tmp_path):
+    """Another blade in the same bearings starts where the first did; with other clearances it does not."""
+    blades = {"key": "event.unbalance", "values": [0.2, 40.0, 40.0]}
+    clearance = {"key": "train.bearing.*.clearance", "factor": True, "values": [1.0, 1.0, 0.9]}
+    phase = {"key": "event.phase", "values": [0.0, 1.0, 1.0]}
+    changes = {"parameters": {"unbalance": blades, "clearance": clearance, "phase": phase}}
+    plan = plan_of(read_study_file(STUDY | changes), Means(tmp_path, small_fmus))
+    one, other, elsewhere = (plan.subject.work(plan.samples[i], "v3") for i in range(3))
+    shared, own = Bench(pytest.fail), Bench(pytest.fail)
+    one.carry_out(shared)
+    (known,) = shared.shared["starts"].all
+    offsets = known.start.offsets
+    row = other.carry_out(shared)
+    assert [k.start.offsets is offsets for k in shared.shared["starts"].all] == [True]
+    alone = other.carry_out(own)
+    for name, value in alone.values.items():
+        np.testing.assert_array_equal(row.values[name].data, value.data)
+    elsewhere.carry_out(shared)
+    assert len(shared.shared["starts"].all) == 2
+    for bench in (shared, own):
+        bench.shared["extracted"].close()
