@@ -11,10 +11,44 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.kernels.compiled import inner_kernel, kernel
-from bearing_fmu.kernels.cyclic_solver import invert
 from bearing_fmu.kernels.vector import LANES, add_rows, set_rows, subtract_rows
 
 Floats = NDArray[np.float64]
+
+
+@inner_kernel
+def _invert(s: Floats, at: int, n: int, width: int, factor: Floats) -> bool:
+    """Invert the block at `at` in place, by Gauss and Jordan's method with row pivots; False if singular."""
+    order = factor[width : 2 * width]
+    for pivot in range(n):
+        best, size = pivot, abs(s[at + pivot * width + pivot])
+        for j in range(pivot + 1, n):
+            if abs(s[at + j * width + pivot]) > size:
+                best, size = j, abs(s[at + j * width + pivot])
+        if not size > 0.0:
+            return False
+        order[pivot] = best
+        row = at + pivot * width
+        if best != pivot:
+            for k in range(n):
+                s[row + k], s[at + best * width + k] = s[at + best * width + k], s[row + k]
+        for j in range(n):
+            factor[j] = s[at + j * width + pivot]
+            s[at + j * width + pivot] = 0.0
+        factor[pivot] = 1.0 / factor[pivot]
+        s[row + pivot] = 1.0
+        for k in range(0, width, LANES):
+            set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
+            for j in range(n):
+                if j != pivot:
+                    subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
+    for pivot in range(n - 1, -1, -1):
+        best = int(order[pivot])
+        if best != pivot:
+            for j in range(n):
+                here = at + j * width
+                s[here + pivot], s[here + best] = s[here + best], s[here + pivot]
+    return True
 
 
 @inner_kernel
@@ -47,17 +81,17 @@ def factorise_ring(
         Couplings to the next column.
     w, y : ndarray, shape (count * n * width,)
         On return what couples each column to the last one, and the last one to it.
-    work : ndarray, shape (3 * n * width,) or longer
+    work : ndarray, shape (2 * (n + 1) * width,) or longer
         Work space.
 
     Returns
     -------
     bool
-        False where a pivot is not positive.
+        False where a Schur complement is singular.
     """
     block = n * width
     last = (count - 1) * block
-    row, v, u = work[:block], work[block : 2 * block], work[2 * block : 3 * block]
+    v, u, row = work[:block], work[block : 2 * block], work[2 * block :]
     v[:] = 0.0
     u[:] = 0.0
     end = (count - 1) * width
@@ -70,7 +104,7 @@ def factorise_ring(
             for j in range(n):
                 v[j * width + j] -= upper[i * width + j]
                 u[j * width + j] -= lower[i * width + j]
-        if not invert(b, at, n, width, row):
+        if not _invert(b, at, n, width, row):
             return False
         _multiply(w, at, v, 0, b, at, n, width)
         _multiply(y, at, b, at, u, 0, n, width)
@@ -87,7 +121,7 @@ def factorise_ring(
                     b[ahead + here] -= scale * b[at + here] * low
                     v[here] = w[at + here] * low
                     u[here] = scale * y[at + here]
-    return invert(b, last, n, width, row)
+    return _invert(b, last, n, width, row)
 
 
 @kernel

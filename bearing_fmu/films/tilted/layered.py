@@ -52,7 +52,7 @@ class LayeredFilm(NamedTuple):
     lower: Floats  #: (m n',) couplings of the Jacobian
     upper: Floats  #: (m n',)
     blocks: Floats  #: (3, m n n') its factor
-    work: Floats  #: (3 n n' + 4 n',)
+    work: Floats  #: (2 n n' + 4 n',)
 
 
 def layered_film(
@@ -70,7 +70,7 @@ def layered_film(
         lower=np.zeros(m * width),
         upper=np.zeros(m * width),
         blocks=np.zeros((3, m * n * width)),
-        work=np.zeros(3 * n * width + 4 * width),
+        work=np.zeros(2 * n * width + 4 * width),
     )
 
 

@@ -81,7 +81,7 @@ def test_ring_of_unsymmetric_blocks():
     b[:, :, :n], low[:, :n], up[:, :n], x[:, :, :n] = blocks.transpose(0, 2, 1), lower, upper, right
     b, low, up, x = b.ravel(), low.ravel(), up.ravel(), x.ravel()
     w, y = np.zeros((2, count * n * width))
-    work = np.zeros(3 * n * width)
+    work = np.zeros(2 * (n + 1) * width)
     assert factorise_ring(b, low, up, w, y, work, count, n, width)
     solve_ring(b, low, up, w, y, x, work, count, n, width, sides)
     found = x.reshape(count, sides, width)[:, :, :n]
