@@ -40,7 +40,7 @@ STUDY_EPILOG = """\
 
 @dataclass(frozen=True)
 class StudyOptions:
-    """Options of the command; see `orchestrator.commands.study.StudyRequest`."""
+    """Options of the command; see `orchestrator.study.ensemble.conduct.Means`."""
 
     study: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="What to run.")]
     out: Annotated[
@@ -78,11 +78,14 @@ def study(options: StudyOptions) -> int:
     """Carry out a study, see `STUDY_HELP`."""
     from rich.console import Console
 
-    from orchestrator.commands.study import StudyRequest, run
+    from orchestrator.commands.study import run
     from orchestrator.fmi.folder import fmu_folder
+    from orchestrator.results.folder import named
+    from orchestrator.study.ensemble.conduct import Means
 
-    request = StudyRequest(
-        options.study, options.out, options.fmus or fmu_folder(), options.jobs, options.scheduler,
-        options.budget, options.limit, options.trust, options.retry, options.dry_run,
+    means = Means(
+        named(options.out) if options.out else Path("results") / options.study.stem,
+        options.fmus or fmu_folder(), options.jobs, options.scheduler, options.budget, options.limit,
+        options.trust, options.retry, Console(),
     )  # fmt: skip
-    return run(request, Console())
+    return run(options.study, means, dry=options.dry_run)

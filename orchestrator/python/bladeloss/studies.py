@@ -13,7 +13,7 @@ from rich.console import Console
 from orchestrator.fmi.folder import fmu_folder
 from orchestrator.results.folder import named
 from orchestrator.study.ensemble.conduct import Means, conduct, plan_of
-from orchestrator.study.ensemble.file import read_study_file
+from orchestrator.study.ensemble.sampling.file import read_study_file
 
 
 def study(

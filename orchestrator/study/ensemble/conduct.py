@@ -21,17 +21,17 @@ from orchestrator.results.folder import ResultFolderError, check_writable
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.record_files import netcdf
 from orchestrator.study.children import cores
-from orchestrator.study.ensemble.checks import sample_problems
-from orchestrator.study.ensemble.crowd import Crowd, crowd, require_dask
-from orchestrator.study.ensemble.file import StudyFile
-from orchestrator.study.ensemble.gather import Rows, dataset_of, table_of
+from orchestrator.study.ensemble.gathering.gather import Rows, dataset_of, table_of
+from orchestrator.study.ensemble.gathering.sensitivity import with_sensitivities
+from orchestrator.study.ensemble.gathering.worst import Again, worst_runs
 from orchestrator.study.ensemble.progress import show_tally
-from orchestrator.study.ensemble.row import Row
-from orchestrator.study.ensemble.sampling import samples_of, text_rows
-from orchestrator.study.ensemble.sensitivity import with_sensitivities
+from orchestrator.study.ensemble.running.checks import sample_problems
+from orchestrator.study.ensemble.running.crowd import Crowd, crowd, require_dask
+from orchestrator.study.ensemble.running.row import Row
+from orchestrator.study.ensemble.running.subject import FunctionSubject, ScenarioSubject
+from orchestrator.study.ensemble.sampling.file import StudyFile
+from orchestrator.study.ensemble.sampling.samples import samples_of, text_rows
 from orchestrator.study.ensemble.stages import Plan, Store, carry_out, loops, missing_of, rows_of
-from orchestrator.study.ensemble.subject import FunctionSubject, ScenarioSubject
-from orchestrator.study.ensemble.worst import Again, worst_runs
 from rotor_fmu.train.wording import choice
 
 _SIGNATURE = "# A study by bladeloss; its runs lie beside this file.\n"

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from orchestrator.case.progress import REDRAW, duration
-from orchestrator.study.ensemble.row import Row
+from orchestrator.study.ensemble.running.row import Row
 
 
 class Tally:

@@ -10,13 +10,13 @@ import numpy as np
 
 from orchestrator.results.ensemble.figures import one_number
 from orchestrator.results.ensemble.files import RUNS
-from orchestrator.study.ensemble.bench import Work
-from orchestrator.study.ensemble.crowd import Crowd
-from orchestrator.study.ensemble.gather import Rows, dataset_of
-from orchestrator.study.ensemble.row import TRIED_AGAIN, Row, read_row, write_row
-from orchestrator.study.ensemble.sampling import Samples
-from orchestrator.study.ensemble.schema import Study
-from orchestrator.study.ensemble.subject import Subject
+from orchestrator.study.ensemble.gathering.gather import Rows, dataset_of
+from orchestrator.study.ensemble.running.bench import Work
+from orchestrator.study.ensemble.running.crowd import Crowd
+from orchestrator.study.ensemble.running.row import TRIED_AGAIN, Row, read_row, write_row
+from orchestrator.study.ensemble.running.subject import Subject
+from orchestrator.study.ensemble.sampling.samples import Samples
+from orchestrator.study.ensemble.sampling.schema import Study
 
 Runs = list[tuple[int, str]]
 """Sample and depth of each."""

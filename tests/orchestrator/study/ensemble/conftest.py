@@ -2,7 +2,7 @@
 
 import pytest
 
-from orchestrator.study.ensemble import attendant, crowd
+from orchestrator.study.ensemble.running import attendant, crowd
 
 
 @pytest.fixture(scope="module", autouse=True)

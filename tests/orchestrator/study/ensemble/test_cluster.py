@@ -57,7 +57,7 @@ def cluster(tmp_path):
     "process",
     "a worker of a study's cluster that is killed",
     "its runs are done by others; the study ends complete, each sample once",
-    guard="orchestrator.study.ensemble.crowd:Crowd.carry_out",
+    guard="orchestrator.study.ensemble.running.crowd:Crowd.carry_out",
 )
 def test_a_worker_may_be_killed(cluster, tmp_path):
     address, workers = cluster

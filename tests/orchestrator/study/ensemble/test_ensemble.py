@@ -14,8 +14,8 @@ import bladeloss
 from orchestrator.errors import OrchestratorError
 from orchestrator.master.interrupt import handled, raise_at_once
 from orchestrator.results.ensemble.files import RUNS
-from orchestrator.study.ensemble import attendant, crowd
 from orchestrator.study.ensemble import conduct as conducting
+from orchestrator.study.ensemble.running import attendant, crowd
 from tests.faults import fault
 from tests.orchestrator.study.ensemble import functions
 
@@ -26,7 +26,7 @@ GRID = {"parameters": {"a": {"key": "a", "grid": [1.0, 2.0, 3.0]}, "b": {"key": 
     "process",
     "a run of a study that crashes, hangs, or ends its process",
     "a row with its outcome, after a second try where it may be the machine; the others go on",
-    guard="orchestrator.study.ensemble.attendant:Attendant.carry_out",
+    guard="orchestrator.study.ensemble.running.attendant:Attendant.carry_out",
 )
 def test_whatever_a_run_does_is_a_row(tmp_path):
     (tmp_path / "tries").mkdir()
@@ -134,9 +134,9 @@ def test_sobol_indices_of_a_closed_form():
 def test_ten_thousand_samples_are_no_burden_before_they_run(tmp_path):
     """They are drawn, known and gathered in seconds; running them is a longer proof."""
     begin = time.process_time()
-    from orchestrator.study.ensemble.file import read_study_file
-    from orchestrator.study.ensemble.gather import Rows, dataset_of
-    from orchestrator.study.ensemble.row import Row, Value
+    from orchestrator.study.ensemble.gathering.gather import Rows, dataset_of
+    from orchestrator.study.ensemble.running.row import Row, Value
+    from orchestrator.study.ensemble.sampling.file import read_study_file
 
     study = {"parameters": {"x": {"key": "x", "grid": {"start": 0.0, "stop": 1.0, "count": 10_000}}}}
     file = read_study_file(study, of_runs=False)

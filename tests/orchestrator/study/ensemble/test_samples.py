@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from orchestrator.results.ensemble.probability import clopper_pearson
-from orchestrator.study.ensemble.changes import KeyPathError, changed
-from orchestrator.study.ensemble.sampling import samples_of, size_of
-from orchestrator.study.ensemble.schema import Span, Study
+from orchestrator.study.ensemble.sampling.changes import KeyPathError, changed
+from orchestrator.study.ensemble.sampling.samples import samples_of, size_of
+from orchestrator.study.ensemble.sampling.schema import Span, Study
 
 UNIFORM = {"key": "a", "distribution": "uniform", "arguments": {"loc": 2.0, "scale": 3.0}}
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from orchestrator.study.ensemble.conduct import Means, plan_of
-from orchestrator.study.ensemble.file import StudyError, read_study_file
-from orchestrator.study.ensemble.sampling import samples_of
-from orchestrator.study.ensemble.subject import ScenarioSubject
+from orchestrator.study.ensemble.running.subject import ScenarioSubject
+from orchestrator.study.ensemble.sampling.file import StudyError, read_study_file
+from orchestrator.study.ensemble.sampling.samples import samples_of
 
 ENSEMBLE = Path(__file__).parents[4] / "orchestrator" / "study" / "ensemble"
 RIGHT = """\

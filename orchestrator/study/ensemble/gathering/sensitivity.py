@@ -9,8 +9,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from orchestrator.results.ensemble.figures import one_number
-from orchestrator.study.ensemble.sampling import Samples, problem_of
-from orchestrator.study.ensemble.schema import SENSITIVITY, Study
+from orchestrator.study.ensemble.sampling.samples import Samples, problem_of
+from orchestrator.study.ensemble.sampling.schema import SENSITIVITY, Study
 
 NAMES = {
     "sensitivity-sobol": ("sobol_first", "sobol_total"),

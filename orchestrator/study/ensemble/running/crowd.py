@@ -13,9 +13,9 @@ from itertools import islice
 from typing import Any
 
 from orchestrator.errors import OrchestratorError
-from orchestrator.study.ensemble.attendant import attend, close_all, close_idle
-from orchestrator.study.ensemble.bench import Work
-from orchestrator.study.ensemble.row import DIED, Row
+from orchestrator.study.ensemble.running.attendant import attend, close_all, close_idle
+from orchestrator.study.ensemble.running.bench import Work
+from orchestrator.study.ensemble.running.row import DIED, Row
 
 WAITING = 60.0
 """Time in s in which the first worker of a cluster must have come."""

@@ -12,8 +12,8 @@ from orchestrator.results.ensemble.figures import CONTACT, FIGURES, LIMIT, OF_BE
 from orchestrator.results.result import Result
 from orchestrator.results.summary import summarise
 from orchestrator.results.verdicts.judge import judge, own_limits
-from orchestrator.study.ensemble.row import Row, Value
-from orchestrator.study.ensemble.schema import Keep
+from orchestrator.study.ensemble.running.row import Row, Value
+from orchestrator.study.ensemble.sampling.schema import Keep
 
 
 def row_of(result: Result, keep: Keep, timing: Mapping[str, float]) -> Row:

@@ -27,10 +27,10 @@ from orchestrator.results.result import Result
 from orchestrator.results.verdicts.limits import ATTRIBUTE
 from orchestrator.scenario.parameters import Values, needed_depths
 from orchestrator.scenario.scenario import Scenario, is_fmu
-from orchestrator.study.ensemble.bench import Bench
-from orchestrator.study.ensemble.keep import row_of
-from orchestrator.study.ensemble.row import REFUSED, Row
-from orchestrator.study.ensemble.schema import Keep
+from orchestrator.study.ensemble.running.bench import Bench
+from orchestrator.study.ensemble.running.keep import row_of
+from orchestrator.study.ensemble.running.row import REFUSED, Row
+from orchestrator.study.ensemble.sampling.schema import Keep
 from rotor_fmu.train.train import Train
 
 _MOST = 24

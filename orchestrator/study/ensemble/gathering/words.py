@@ -10,7 +10,7 @@ import xarray as xr
 
 from orchestrator.results.ensemble.figures import CONTACT
 from orchestrator.results.ensemble.probability import clopper_pearson
-from orchestrator.study.ensemble.row import NOT_REFINED
+from orchestrator.study.ensemble.running.row import NOT_REFINED
 
 
 def conclusions(data: xr.Dataset) -> Iterator[str]:

@@ -16,8 +16,8 @@ from bearing_fmu import depths as registry
 from orchestrator.errors import OrchestratorError
 from orchestrator.results.ensemble.figures import FIGURES, LIMIT
 from orchestrator.results.record import series_names
-from orchestrator.study.ensemble.sampling import frozen, size_of
-from orchestrator.study.ensemble.schema import MOST, SENSITIVITY, Parameter, Span, Study
+from orchestrator.study.ensemble.sampling.samples import frozen, size_of
+from orchestrator.study.ensemble.sampling.schema import MOST, SENSITIVITY, Parameter, Span, Study
 from rotor_fmu.train.toml_source import Problem, TomlError, TomlSource, read_toml
 from rotor_fmu.train.wording import choice, explain, shown
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.errors import OrchestratorError
-from orchestrator.study.ensemble.schema import SENSITIVITY, Parameter, Sampling, Span, Study
+from orchestrator.study.ensemble.sampling.schema import SENSITIVITY, Parameter, Sampling, Span, Study
 
 _EDGE = 1e-12  # of probabilities: quantiles are finite there
 Array = NDArray[np.float64]

@@ -16,9 +16,9 @@ from dataclasses import replace
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 
-from orchestrator.study.ensemble.row import DIED, OVER_LIMIT, TRIED_AGAIN, Row
+from orchestrator.study.ensemble.running.row import DIED, OVER_LIMIT, TRIED_AGAIN, Row
 
-COMMAND = (sys.executable, "-P", "-m", "orchestrator.study.ensemble.runner")
+COMMAND = (sys.executable, "-P", "-m", "orchestrator.study.ensemble.running.runner")
 STARTING = 300.0
 """Time in s in which a process must be ready."""
 _PERIOD = 0.5  # s, between two looks at the clock
@@ -46,7 +46,7 @@ class Attendant:
         Parameters
         ----------
         work : bytes
-            A pickled `orchestrator.study.ensemble.bench.Work`.
+            A pickled `orchestrator.study.ensemble.running.bench.Work`.
         limit : float
             Wall time in s that it may take; 0 for any.
         """

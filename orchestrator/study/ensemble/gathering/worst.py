@@ -21,8 +21,8 @@ from orchestrator.results.ensemble.files import WORST, name_of_run
 from orchestrator.scenario.file import scenario_toml, train_source
 from orchestrator.scenario.scenario import is_fmu
 from orchestrator.study.children import Child, run_children
-from orchestrator.study.ensemble.changes import TRAIN
-from orchestrator.study.ensemble.subject import Sample, ScenarioSubject
+from orchestrator.study.ensemble.running.subject import Sample, ScenarioSubject
+from orchestrator.study.ensemble.sampling.changes import TRAIN
 from orchestrator.study.progress import show_runs
 from rotor_fmu.train.file import bundled_file
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from orchestrator.study.ensemble.file import StudyFile
-from orchestrator.study.ensemble.subject import Sample, Subject
+from orchestrator.study.ensemble.running.subject import Sample, Subject
+from orchestrator.study.ensemble.sampling.file import StudyFile
 from rotor_fmu.train.toml_source import Problem
 
 

@@ -20,11 +20,11 @@ from orchestrator.results.verdicts.limits import load_limits, own_file, to_text
 from orchestrator.scenario.file import check_with_train, load_with_train, train_source
 from orchestrator.scenario.parameters import linearised, needed_depths
 from orchestrator.scenario.scenario import Scenario, is_fmu
-from orchestrator.study.ensemble.bench import FunctionWork, Work
-from orchestrator.study.ensemble.changes import TRAIN, KeyPathError, with_values
-from orchestrator.study.ensemble.file import StudyFile
-from orchestrator.study.ensemble.schema import Keep, Study
-from orchestrator.study.ensemble.work import RunWork
+from orchestrator.study.ensemble.running.bench import FunctionWork, Work
+from orchestrator.study.ensemble.running.work import RunWork
+from orchestrator.study.ensemble.sampling.changes import TRAIN, KeyPathError, with_values
+from orchestrator.study.ensemble.sampling.file import StudyFile
+from orchestrator.study.ensemble.sampling.schema import Keep, Study
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.train.file import TrainFileError, load_train, train_file
 from rotor_fmu.train.toml_source import read_toml

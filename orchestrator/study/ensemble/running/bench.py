@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from orchestrator.study.ensemble.row import REFUSED, Row, Value
+from orchestrator.study.ensemble.running.row import REFUSED, Row, Value
 
 
 @dataclass

@@ -12,9 +12,9 @@ import numpy as np
 import xarray as xr
 
 from orchestrator.results.ensemble.figures import FIGURES, one_number
-from orchestrator.study.ensemble.row import NOT_REFINED, Row, Value
-from orchestrator.study.ensemble.sampling import Samples
-from orchestrator.study.ensemble.schema import Study
+from orchestrator.study.ensemble.running.row import NOT_REFINED, Row, Value
+from orchestrator.study.ensemble.sampling.samples import Samples
+from orchestrator.study.ensemble.sampling.schema import Study
 
 _ORDER = ("period", "time", "bearing", "axis")
 _PHASES = ("steady", "before", "after")

@@ -9,8 +9,8 @@ import threading
 from multiprocessing.connection import Connection
 from os import _exit  # units may put another in its place
 
-from orchestrator.study.ensemble.bench import Bench
-from orchestrator.study.ensemble.row import Row
+from orchestrator.study.ensemble.running.bench import Bench
+from orchestrator.study.ensemble.running.row import Row
 
 HUNG = 12
 """Exit status where a unit does not come back."""

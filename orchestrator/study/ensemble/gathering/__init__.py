@@ -1,0 +1,1 @@
+"""What comes out of the rows: dataset, table, sensitivities, the worst runs made again, and words."""
