@@ -14,9 +14,9 @@ from orchestrator.case.simulate import Execution, execute
 from orchestrator.results.ensemble.files import read_study
 from orchestrator.results.summary import summarise
 from orchestrator.scenario.file import load_with_train
-from orchestrator.study.ensemble.bench import Bench
 from orchestrator.study.ensemble.conduct import Means, plan_of
 from orchestrator.study.ensemble.gathering.worst import worst_runs, write_inputs
+from orchestrator.study.ensemble.running.bench import Bench
 from orchestrator.study.ensemble.sampling.file import read_study_file
 
 STUDY = {
