@@ -25,8 +25,8 @@ SECTIONS = {
     "fragility": (
         "How likely is solid contact",
         "Share of runs with solid contact at any bearing; bars: 95 % bounds of Clopper and Pearson, in which "
-        "runs without a result count for no contact below and for contact above. Parameters whose values all "
-        "differ are taken in parts of equally many samples.",
+        "runs without a result count for no contact below and for contact above. A bar without a point: no "
+        "run with a result. Values that were drawn are taken in parts of equally many samples.",
     ),
     "maps": (
         "Maps of two parameters",

@@ -8,7 +8,7 @@ from orchestrator.commands.report import ReportRequest, run
 from orchestrator.errors import OrchestratorError
 from orchestrator.report import document
 from orchestrator.report.ensemble.bars import sensitivities
-from orchestrator.report.ensemble.curves import fragility
+from orchestrator.report.ensemble.curves import fragility, groups
 from orchestrator.report.ensemble.maps import maps
 from orchestrator.report.ensemble.page import study_page, write_study_report
 from orchestrator.report.ensemble.source import levels
@@ -122,3 +122,26 @@ def test_a_browser_draws_it(tmp_path):
         drawn = page.value("[...document.querySelectorAll('.panel')].map((p) => p.dataset.drawn)")
         assert drawn == ["yes"] * 5 and page.complaints == []
         assert page.value("document.documentElement.scrollWidth") == 390
+
+
+def test_drawn_values_are_taken_together_and_those_of_a_grid_are_not():
+    grid = np.repeat(np.linspace(0.1, 2.0, 20), 4)
+    assert [values.size for values in groups(grid)] == [4] * 20
+    drawn = np.repeat(np.random.default_rng(1).uniform(size=20), 4)
+    parts = groups(drawn)
+    assert len(parts) == 10 and {part.size for part in parts} == {8}
+    assert sorted(np.concatenate(parts).tolist()) == list(range(80))
+
+
+def test_a_value_without_any_result_has_bounds_and_no_point():
+    """Nothing is known there: between nothing and everything."""
+    data = study()
+    unknown = data["unbalance"].values == data["unbalance"].values.max()
+    contact = data["contact"].where(~xr.DataArray(unknown, dims="sample"))
+    panel = next(p for p in fragility(data.assign(contact=contact)) if p.title == "over unbalance")
+    shown = [t for t in panel.traces if t.get("showlegend", True)]
+    bare = [t for t in panel.traces if not t.get("showlegend", True)]
+    largest = float(data["unbalance"].max())
+    assert bare and all(t["x"] == [largest] for t in bare) and all(largest not in t["x"] for t in shown)
+    assert all(t["y"][0] - t["error_y"]["arrayminus"][0] == 0.0 for t in bare)
+    assert all(t["y"][0] + t["error_y"]["array"][0] == 100.0 for t in bare)
