@@ -13,7 +13,7 @@ from orchestrator.linear.case import HERTZ, LinearCase, linear_case, write_resul
 from orchestrator.linear.operating_point import OperatingPoint, bearing_data
 from orchestrator.linear.tables import table_of, warning, whirl_name
 from orchestrator.results.figures.mode_shapes import mode_shapes_figure
-from rotor_fmu.linear.analysis import half_axes, least_damped, log_decrement, whirl_modes
+from rotor_fmu.linear.analysis import NOISE, half_axes, least_damped, log_decrement, whirl_modes
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -70,6 +70,7 @@ def mode_data(
         "damping_ratio": (modes.damping_ratio, "1", "damping ratio, negative if unstable"),
         "log_decrement": (log_decrement(modes), "1", "logarithmic decrement, negative if unstable"),
         "growth_rate": (modes.eigenvalues.real, "1/s", "real part of the eigenvalue"),
+        "bending": (modes.bending, "1", "share of the shaft in what strains, 0: rigid on its bearings"),
         "whirl_direction": (modes.direction, "1", "whirl direction, -1 backward to 1 forward"),
     }
     for name, (values, unit, label) in single.items():
@@ -90,12 +91,13 @@ def mode_data(
 
 def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
     """Frequency, damping ratio and whirl, and where the shape is largest."""
-    table = table_of(f"{case.train.name} on {data.attrs['films']}, unreduced shaft")
+    table = table_of(f"{case.train.name} on {data.attrs['films']}, unreduced shaft", narrow=True)
     for name in (
         "mode",
         "Hz",
         "damping\nratio",
         "log.\ndecr.",
+        "shaft\nbends",
         "whirl",
         "largest at\nz \\[m]",
         "nearest\nbearing",
@@ -111,10 +113,20 @@ def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
         table.add_row(
             str(mode),
             f"{float(data['frequency'][k]):.3f}",
-            f"[bold red]{ratio:.4f}[/bold red]" if ratio < 0.0 else f"{ratio:.4f}",
-            f"{float(data['log_decrement'][k]):.3f}",
+            f"[bold red]{ratio:.4f}[/bold red]" if ratio < -NOISE else f"{_unsigned(ratio):.4f}",
+            f"{_unsigned(float(data['log_decrement'][k])):.3f}",
+            f"{100.0 * float(data['bending'][k]):.0f} %",
             whirl_name(float(data["whirl_direction"][k])),
             f"{place:.2f}",
             seat.name,
         )
+    table.caption = (
+        "Shaft bends: its share in the strain of the mode, the rest is that of the bearings; near 0 % it "
+        "moves on its films as a rigid body, in oil whirl at about half the speed of rotation."
+    )
     return table
+
+
+def _unsigned(damping: float) -> float:
+    """Damping, without the sign that rounding gives to none."""
+    return 0.0 if abs(damping) < NOISE else damping

@@ -28,7 +28,7 @@ from orchestrator.linear.operating_point import (
     over_speed,
 )
 from orchestrator.results.files import room_for
-from orchestrator.results.folder import check_folder, named
+from orchestrator.results.folder import check_folder, named, named_after
 from orchestrator.results.record_files import netcdf
 from orchestrator.results.replacing import result_folder
 from orchestrator.scenario.file import (
@@ -96,7 +96,7 @@ class LinearRequest:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return named(self.out) if self.out else Path("results") / f"{Path(self.source).stem}-{self.command}"
+        return named(self.out) if self.out else Path("results") / f"{named_after(self.source)}-{self.command}"
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,12 @@ def named(folder: Path) -> Path:
     return folder.resolve() if folder.name in ("", "..") else folder
 
 
+def named_after(source: str) -> str:
+    """How results of a scenario, archive or train are named: its file without the ending, or its folder."""
+    path = named(Path(source))
+    return path.stem if path.suffix.lower() in (".toml", ".ssp") else path.name
+
+
 def check_folder(folder: Path, sign: str = _SIGN, ours: Sequence[str] = RUN_FILES) -> None:
     """Make sure that results can go to a folder, before hours are spent on them.
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 from rotor_fmu.linear.critical import (
     LEAST_DECREMENT,
+    NOISE,
     CriticalSpeed,
     LeastDamped,
     critical_speeds,
@@ -40,6 +41,7 @@ __all__ = [
     "DEFAULT_SIZE",
     "LEAST_DECREMENT",
     "METHODS",
+    "NOISE",
     "CriticalSpeed",
     "HarmonicResponse",
     "LeastDamped",

@@ -7,7 +7,7 @@ or on a modal foundation, its modes follow the shaft's coordinates in q, and B q
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
 
@@ -53,10 +53,15 @@ class WhirlModes:
         lambda [1/s], imaginary parts positive.
     shapes : ndarray, (n, k)
         Complex displacements of the unreduced shaft, largest deflection 1.
+    bending : ndarray, (k,)
+        Share of the shaft's strain in the work of all that holds the mode: 1 where the shaft alone bends,
+        0 where it moves on its bearings as a rigid body.  Of x^H K x of the shaft to that and the moduli of
+        x^H (K + lambda C) x of each bearing; as for the strain energies in use, where bearings have no C.
     """
 
     eigenvalues: Complex
     shapes: Complex
+    bending: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def frequency(self) -> Array:
@@ -109,11 +114,26 @@ def whirl_modes(
     kept = np.flatnonzero(values.imag > above)
     kept = kept[np.argsort(np.abs(values[kept]))][:count]
     kept = kept[np.argsort(values[kept].imag)]
+    bending = _bending(shaft, values[kept], vectors[: len(vectors) // 2, kept], bearings)
     shapes = vectors[:n, kept]  # without those of a foundation
     if isinstance(shaft, ReducedShaft):
         shapes = shaft.T @ shapes
     deflection = np.abs(shapes.reshape(-1, 4, len(kept))[:, :2]).max(axis=(0, 1))
-    return WhirlModes(values[kept], shapes / deflection)
+    return WhirlModes(values[kept], shapes / deflection, bending)
+
+
+def _bending(
+    shaft: ShaftModel | ReducedShaft, values: Complex, vectors: Complex, bearings: Bearings | None
+) -> Array:
+    """`WhirlModes.bending` of eigenvalues and their vectors of coordinates as in `system_matrices`."""
+    of_shaft = vectors[: shaft.M.shape[0]]
+    strain = np.einsum("ik,ik->k", of_shaft.conj(), sp.csr_array(shaft.K) @ of_shaft).real
+    if bearings is None:
+        return np.ones_like(strain)
+    motion = relative_motion(shaft, vectors)
+    reacting = bearings.stiffness + values[:, None, None, None] * bearings.damping
+    held = np.abs(np.einsum("bik,kbij,bjk->kb", motion.conj(), reacting, motion)).sum(axis=1)
+    return np.asarray(strain / np.maximum(strain + held, np.finfo(np.float64).tiny))
 
 
 def half_axes(x: Complex, y: Complex) -> tuple[Array, Array, Array]:
@@ -150,12 +170,12 @@ def system_matrices(
 
 
 def relative_motion(shaft: ShaftModel | ReducedShaft, x: NDArray) -> NDArray:
-    """Journals in their housings, (n_b, 4), from coordinates as in `system_matrices`."""
+    """Journals in their housings, (n_b, 4, ...), from coordinates (n, ...) as in `system_matrices`."""
     n = shaft.M.shape[0]
     journals = journal_map(shaft) @ x[:n]
     if len(x) > n and shaft.foundation is not None:
         journals = journals - shaft.foundation.shapes @ x[n:]
-    return journals.reshape(-1, 4)
+    return np.asarray(journals).reshape(-1, 4, *x.shape[1:])
 
 
 @lru_cache(maxsize=8)

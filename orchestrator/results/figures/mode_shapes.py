@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from orchestrator.results.figures import style
-from rotor_fmu.linear.analysis import half_axes
+from rotor_fmu.linear.analysis import NOISE, half_axes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,10 +81,11 @@ def _panel(axes: Axes, mode: xr.Dataset, train: Train) -> None:
     sense = "planar" if abs(whirl) < style.PLANAR else "forward" if whirl > 0.0 else "backward"
     axes.set_title(
         f"{int(mode['mode'])}:  {float(mode['frequency']):.2f} Hz,  damping ratio {ratio:.3f},  "
-        f"{sense} {whirl:+.2f}" + ("  unstable" if ratio < 0.0 else ""),
+        f"shaft bends {float(mode['bending']):.0%},  {sense} {whirl:+.2f}"
+        + ("  unstable" if ratio < -NOISE else ""),
         loc="left",
         fontsize=style.FONT,
-        color="#CC0000" if ratio < 0.0 else "#000000",
+        color="#CC0000" if ratio < -NOISE else "#000000",
     )
     axes.set_xlim(z[0] - 0.01 * z[-1], 1.01 * z[-1])
     axes.set_ylim(-1.2, 1.1)

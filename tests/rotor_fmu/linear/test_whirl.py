@@ -125,3 +125,18 @@ def test_rayleigh_damping_of_free_modes():
     natural = np.abs(modes.eigenvalues)
     expected = train.rayleigh_alpha / (2.0 * natural) + train.rayleigh_beta * natural / 2.0
     assert modes.damping_ratio == pytest.approx(expected, rel=1e-6)
+
+
+def test_the_share_of_the_shaft_is_that_of_its_strain_energy():
+    """A disc on a massless shaft on springs: the deflection of two springs in series."""
+    E, length, diameter, mass = 2e11, 1.0, 0.05, 50.0
+    shaft = uniform_shaft(length, diameter, 2, Material("light", E, 0.3, 1e-6))
+    train = Train("disc", 1.0, 0.0, 0.0, 0.0, shaft.shoulders, (Wheel("d", 1, mass, 0.0, 1e-6),),
+                  with_bearings(shaft, 0, 2).bearings)  # fmt: skip
+    bending = E * math.pi * diameter**4 / 64.0
+    shear = 6.0 * 1.3 / 8.8 * E / 2.6 * math.pi * diameter**2 / 4.0
+    flexible = length**3 / (48.0 * bending) + length / (4.0 * shear)
+    for spring in (1e5, 1e6, 1e8):
+        modes = whirl_modes(assemble(train), 0.0, 2, bearings=springs(spring, spring))
+        assert modes.bending == pytest.approx([flexible / (flexible + 0.5 / spring)] * 2, rel=1e-5)
+    assert whirl_modes(assemble(train), 0.0, 2).bending == pytest.approx(1.0)
