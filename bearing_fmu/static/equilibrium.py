@@ -56,7 +56,13 @@ class Carried:
         )
 
 
-def carried(film: Film, load: Sequence[float], speed: float, start: Sequence[float] | None = None) -> Carried:
+def carried(
+    film: Film,
+    load: Sequence[float],
+    speed: float,
+    start: Sequence[float] | None = None,
+    tilts: Sequence[float] = (0.0, 0.0),
+) -> Carried:
     """Find where a film carries a load, by Newton's method with its tangent.
 
     Parameters
@@ -69,6 +75,8 @@ def carried(film: Film, load: Sequence[float], speed: float, start: Sequence[flo
         rad/s.
     start : sequence of float, shape (2,), optional
         First position, m; by default near the middle, towards the load.
+    tilts : sequence of float, shape (2,), optional
+        Of the journal in the bore, held, rad.
 
     Raises
     ------
@@ -79,7 +87,7 @@ def carried(film: Film, load: Sequence[float], speed: float, start: Sequence[flo
     size = float(np.hypot(*force))
     position = np.array(0.1 * clearance * force / size if start is None else start)
     for _ in range(_ROUNDS):
-        found = film.respond(np.array([*position, 0.0, 0.0]), _STILL, speed)
+        found = film.respond(np.array([*position, *tilts]), _STILL, speed)
         missing = -force - found.wrench[:2]
         if float(np.hypot(*missing)) < _MET * size:
             return Carried(force, speed, position, found)

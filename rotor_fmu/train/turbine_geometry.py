@@ -50,6 +50,8 @@ class TurbineDesign:
     hp_balance, lp_balance, generator_balance, exciter_balance : float
         Nominal unbalance as a multiple of the balance grade. That of an LP rotor is a couple: the wheels
         of one flow against those of the other, the middle wheel without.
+    rayleigh_alpha : float
+        Damping of the mass [1/s].
     """
 
     lp_core_diameter: float = 1.11
@@ -70,6 +72,7 @@ class TurbineDesign:
     lp_balance: float = 0.95
     generator_balance: float = 10.2
     exciter_balance: float = 1.0
+    rayleigh_alpha: float = 1.5
 
 
 class _Lathe:
@@ -153,7 +156,7 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
     return Train(
         name="turbine",
         speed=2.0 * math.pi * 25.0,
-        rayleigh_alpha=1.5,
+        rayleigh_alpha=design.rayleigh_alpha,
         rayleigh_beta=2e-5,
         balance_grade=2.5e-3,
         shoulders=tuple(lathe.shoulders),
@@ -199,17 +202,18 @@ def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float)
     """12.4 m, 60 shoulders, double flow, nine wheels, symmetric; 9.3 m between the bearings."""
     journal, core = design.lp, design.lp_core_diameter
     d = journal.diameter
+    half = max(320.0, math.ceil(500.0 * journal.width_ratio * d))  # of the journal, which carries the bearing
     outwards = (
         (1.06, (145,)),
         (0.98, (140,)),
         (0.96, (140,)),
         (0.98, (140,)),
         (0.92, (250,)),
-        (d + 0.06, (140,)),
-        (d, (320,)),
+        (d + 0.06, (460 - half,)),
+        (d, (half,)),
         None,
-        (d, (320,)),
-        (d + 0.06, (380,)),
+        (d, (half,)),
+        (d + 0.06, (700 - half,)),
         (d + 0.04, (275, 275)),
         (1.30, (300,)),
     )

@@ -96,7 +96,7 @@ class Bench:
             When it does not come to its end.
         """
         step = settings.get("step", 1e-4)
-        given = {"event": dict(event), "record": {"interval": step}, **settings}
+        given = {"events": [{"kind": "blade-loss", **event}], "record": {"interval": step}, **settings}
         result = simulate(self.scenario(train, depth, **given), self.folder)
         if not result.outcome.ok:
             raise OrchestratorError(f"{depth}: {result.outcome.value}: {result.message}")

@@ -11,9 +11,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator, Sequence
 
-from orchestrator.study.children import Ended
-from orchestrator.study.comparison import Comparison, gather
-from orchestrator.study.paper.calibration.bench import Bench, bench, near
+from orchestrator.study.comparison import Comparison
+from orchestrator.study.paper.calibration.bench import Bench, bench
+from orchestrator.study.paper.calibration.fracture import Blade, Means, fractured
 from orchestrator.study.paper.calibration.search import (
     ANALYSED,
     FREEDOMS,
@@ -23,10 +23,10 @@ from orchestrator.study.paper.calibration.search import (
     search,
     with_values,
 )
-from orchestrator.study.paper.published import DEPTHS, GAP_V3_OVER_V1
+from orchestrator.study.paper.published import GAP_V3_OVER_V1
 from orchestrator.study.paper.requirement import Verdict
 from orchestrator.study.paper.rows import rows
-from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
+from rotor_fmu.train.turbine_geometry import TurbineDesign
 
 FIRST_GUESS = {
     "lp_wheel_mass": 30e3,
@@ -38,8 +38,6 @@ FIRST_GUESS = {
     "lp_core_diameter": 1.20,
 }
 WHEEL, UNBALANCES = "LP1-2", (225.0, 245.0, 265.0, 285.0)
-FRACTURE = 0.2
-"""Instant of the fracture in short runs [s]: whole revolutions, as the paper's 1 s."""
 
 
 def show_search(place: Bench) -> None:
@@ -67,24 +65,10 @@ def show_before(place: Bench) -> None:
     print(f"{6:4d}  {'mean least gap V3 - V1 [m]':30s}{aim:12.4g}{gap:12.4g}  see experiments")
 
 
-def scan(
-    place: Bench, unbalances: Sequence[float], behind: float = 0.7
-) -> Iterator[tuple[float, Comparison]]:
-    """The depths side by side for unbalances of a blade [kg m], until some time behind the fracture [s]."""
-    train = turbine_train()
-    mixed = {"v1": near(train, ANALYSED.partition("-")[0])}
+def scan(place: Bench, unbalances: Sequence[float]) -> Iterator[tuple[float, Comparison]]:
+    """The depths side by side for unbalances of a blade [kg m]."""
     for unbalance in unbalances:
-        event = {"wheel": WHEEL, "unbalance": unbalance, "time": FRACTURE}
-        end = FRACTURE + behind
-        records = {
-            depth: place.run(
-                train, "v2" if depth == "v1" else depth, event, end=end, depth_at=mixed.get(depth, {})
-            )
-            for depth in DEPTHS
-        }
-        ended = dict.fromkeys(DEPTHS, Ended("finished"))
-        scenario = place.scenario(train, "v1", event=event, end=end)
-        yield unbalance, gather(records, ended, ANALYSED, scenario, train)
+        yield unbalance, fractured(place, TurbineDesign(), Blade(WHEEL, unbalance), Means(behind=0.7))
 
 
 def show_scan(place: Bench) -> None:
