@@ -72,7 +72,7 @@ RANGES = (
 
 def sample(number: int, near: Values | None = None) -> Values:
     """Figures of design and blade of a number, everywhere or near some."""
-    shares = qmc.Sobol(len(RANGES), rng=SEED).random(number + 1)[-1]
+    shares = qmc.Sobol(len(RANGES), rng=SEED).random(1 << number.bit_length())[number]
     if near is None:
         return {r.name: r.at(float(share)) for r, share in zip(RANGES, shares, strict=True)}
     found = dict(near)
