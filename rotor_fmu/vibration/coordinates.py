@@ -78,6 +78,25 @@ class Compliance:
         return np.asarray(own * (sizes / np.sqrt(np.outer(own, own))).sum(axis=1))
 
 
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """What a motion is along given modal forces.
+
+    Attributes
+    ----------
+    rows : ndarray, (2 j, s)
+        Real, or complex for motions of pairs, of which the real part counts.
+    """
+
+    rows: NDArray[Any]
+
+    def __call__(self, motion: Array) -> Array:
+        """Displacements and velocities, (2, j); a foundation behind the shaft in the motion stays out."""
+        kind = self.rows.dtype
+        own = self.rows.shape[1] * kind.itemsize // 8
+        return np.ascontiguousarray((self.rows @ motion[:own].view(kind)).real).reshape(2, -1)
+
+
 class Maps(Protocol):
     """The exact maps over a step of one length; m modes, n_b bearings, h harmonic inputs."""
 
@@ -133,3 +152,6 @@ class Coordinates(Protocol):
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""
+
+    def reading(self, forces: Array) -> Reading:
+        """What a motion is along modal forces of the shaft, (m, j)."""

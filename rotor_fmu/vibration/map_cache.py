@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import CondensedShaft
-from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.coordinates import Coordinates, Maps, Reading
 from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.harmonic_shaft import condense_harmonic
 from rotor_fmu.vibration.modal_shaft import ModalShaft
@@ -59,7 +59,8 @@ class MapCache:
         self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
         self._kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._unit_kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
-        self._detunings: OrderedDict[tuple[float, float], tuple[Maps, Detuning]] = OrderedDict()
+        self._detunings: OrderedDict[tuple[float, float], tuple[Maps, Maps, Detuning]] = OrderedDict()
+        self._readings: OrderedDict[float | None, Reading] = OrderedDict()
         self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
 
     def coordinates(self, speed: float | None) -> Coordinates:
@@ -85,8 +86,12 @@ class MapCache:
         """Maps over a step in which the speed changes, for unbalances whose pull is `Turning.pull`."""
         speed = turning.reference
         length = self._settled(speed, turning.step, end)
-        base, detuning = _recall(self._detunings, (speed, length), lambda: self._new_detuning(speed, length))
-        return DetunedMaps(base, detuning, turning.mean - speed, turning.acceleration)
+        found = _recall(self._detunings, (speed, length), lambda: self._new_detuning(speed, length))
+        return DetunedMaps(*found, turning.mean - speed, turning.acceleration)
+
+    def reading(self, speed: float | None) -> Reading:
+        """What a motion in the coordinates of a speed is along the pulls of the unbalances, for each kg m."""
+        return _recall(self._readings, speed, lambda: self._new_reading(speed))
 
     def work(self, speed: float, step: float, end: float = 0.0) -> WorkMaps:
         """Works over a step of which `step` has been asked, or over a part of one."""
@@ -131,8 +136,12 @@ class MapCache:
     def _new_step(self, speed: float, step: float) -> Maps:
         return self.coordinates(speed).maps(speed, step, self._unbalance.forces(self._bare, speed))
 
-    def _new_detuning(self, speed: float, step: float) -> tuple[Maps, Detuning]:
-        return self._unit_maps(speed, step), self.coordinates(speed).detuning(speed, step)
+    def _new_detuning(self, speed: float, step: float) -> tuple[Maps, Maps, Detuning]:
+        whole, half = (self._unit_maps(speed, length) for length in (step, 0.5 * step))
+        return whole, half, self.coordinates(speed).detuning(speed, step)
+
+    def _new_reading(self, speed: float | None) -> Reading:
+        return self.coordinates(speed).reading(self._unbalance.forces(self._bare, 1.0))
 
     def _unit_maps(self, speed: float, step: float) -> Maps:
         """Maps for unbalances whose pull per kg m is given with each step."""

@@ -37,6 +37,7 @@ class RotorMotion:
     _state: RotorState
     _journals: Array
     _modal: Array | None
+    _seen: Array | None
 
     def __init__(
         self,
@@ -151,6 +152,12 @@ class RotorMotion:
             self._modal = self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
         return self._modal
 
+    def seen(self) -> Array:
+        """The vibration now along the pulls of the unbalances, see `MapCache.reading`."""
+        if self._seen is None:
+            self._seen = self._maps.reading(self._state.speed)(self._state.motion)
+        return self._seen
+
     def _motion_in(self, coordinates: Coordinates) -> Array:
         if coordinates.speed == self._state.speed:
             return self._state.motion
@@ -176,7 +183,7 @@ class RotorMotion:
                 "rotor: the state was saved by another build or kind of processor, on which the modes of the "
                 "shaft come out in other vectors; go on there, or start anew"
             )
-        self._state, self._modal = state, None
+        self._state, self._modal, self._seen = state, None, None
         self._journals = journal_motion(coordinates, state.motion, state.static)
 
     def _angle_at(self, time: float) -> float:

@@ -16,7 +16,7 @@ from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.spin import Spin
 from rotor_fmu.vibration.state import RotorState
-from rotor_fmu.vibration.turning import Turning
+from rotor_fmu.vibration.turning import DetunedMaps, Turning
 from rotor_fmu.vibration.unbalance import Unbalance, losses_of
 from rotor_fmu.vibration.work import Work, WorkLedger
 
@@ -72,8 +72,8 @@ class Rotor(RotorMotion):
     ) -> None:
         super().__init__(shaft, unbalance, gravity=gravity, speed=speed)
         self._stepper = AffineStep(self.shaft.bearings)
-        self._spin = Spin(self.shaft, unbalance, inertia)
-        self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance, self._spin) if track_work else None
+        self._spin = Spin(unbalance, inertia)
+        self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance) if track_work else None
 
     @classmethod
     def of_train(
@@ -136,8 +136,8 @@ class Rotor(RotorMotion):
     def freely(self, t: float, H: float, F0: Array, K: Array, C: Array, now: Braking) -> None:
         """Take a macro step in which torques decide the speed; otherwise as `step`."""
         state = self._state
-        turn = state.angle, self.speed
-        speed = self._spin.speed_after(t, turn, H, self.modal_state(), now, state.owed)
+        along = self._spin.along(t + 0.5 * H, self.seen())
+        speed = self._spin.speed_after((state.angle, self.speed), H, along, now, state.owed)
         self.step(t, H, F0, K, C, speed, now, free=True)
 
     def step(
@@ -181,33 +181,37 @@ class Rotor(RotorMotion):
         turning = Turning(self._state.angle, self.speed, speed, H)
         coordinates, maps, rotation, kick = self._at(turning, t)
         self._stepper.set_law(K, C)
-        state, journals = self._state, self._journals
+        state, journals, motion = self._state, self._journals, self._motion_in(coordinates)
         end, nearer = self._stepper.advance(
-            coordinates, maps, self._motion_in(coordinates), journals, F0, rotation, kick, state.static
+            coordinates, maps, motion, journals, F0, rotation, kick, state.static
         )
         self.holds_mean = nearer is not None
-        work, owed = state.work, 0.0
+        work, owed, given = state.work, 0.0, 0.0
+        seen = None
         if self._ledger is not None or free:
-            states = self.modal_state(), coordinates.to_modal(end)
+            seen = self._maps.reading(coordinates.speed)(end)
+            ends = self._spin.along(t + 0.5 * H, self.seen()), self._spin.along(t + 0.5 * H, seen)
+            given = self._spin.work(t, turning, (self.seen(), seen))
+            given += H * maps.power if isinstance(maps, DetunedMaps) else 0.0
         if self._ledger is not None:
             after = journal_motion(coordinates, end, state.static)
             held = self._stepper.held(nearer, F0, journals, after, state.static)
+            before = self.modal_state()
             if turning.start == turning.end:
                 turn = (state.angle, speed)
-                done = self._ledger.over_step((t, H), turn, self.modal_state(), held, state.static)
+                done = self._ledger.over_step((t, H), turn, before, held, state.static)
             else:
-                done = self._ledger.over_turned_step(t, turning, states, held, state.static)
-            account = self._spin.account(
-                t, turning, states, now, state.owed if free else None, done.unbalance
-            )
+                states = before, coordinates.to_modal(end)
+                done = self._ledger.over_turned_step(H, states, held, state.static, given)
+            account = self._spin.account(turning, ends, now, state.owed if free else None, done.unbalance)
             done = done._replace(drive=account.drive, friction=account.friction, windage=account.windage)
             work, owed = Work(*(a + b for a, b in zip(work, done, strict=True))), account.owed
         elif free:
-            given = self._spin.work(t, turning, states)
-            owed = self._spin.account(t, turning, states, now, state.owed, given).owed
+            owed = self._spin.account(turning, ends, now, state.owed, given).owed
         turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
         where = coordinates.speed, coordinates.basis
         self.set_state(RotorState(end, turned, state.static, *where, work, speed, owed, t + H))
+        self._seen = seen
 
     def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:
         """Coordinates and maps of a step, rotation of the unbalances, and the kick of what appears in it."""
@@ -227,7 +231,8 @@ class Rotor(RotorMotion):
 
     def energy_of_rotation(self) -> float:
         """Kinetic energy of the rotation now, and of unbalance and vibration together [J]."""
-        return self._spin.energy(self._state.time, (self._state.angle, self.speed), self.modal_state())
+        along = self._spin.along(self._state.time, self.seen())
+        return self._spin.energy((self._state.angle, self.speed), along)
 
     def work(self) -> Work:
         """Works since the start [J]; the rotor must keep account of them (`track_work`)."""

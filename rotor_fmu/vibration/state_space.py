@@ -20,8 +20,8 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from rotor_fmu.vibration.coordinates import Compliance, fingerprint
-from rotor_fmu.vibration.detuning import Detuning, dense_detuning
+from rotor_fmu.vibration.coordinates import Compliance, Reading, fingerprint
+from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
 Array = NDArray[np.float64]
@@ -92,9 +92,13 @@ class ModalCoordinates:
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""
         m = self._shaft.size
-        of_rates, of_displacements = np.zeros((2, 2 * m, 2 * m))
-        of_rates[m:, m:] = of_displacements[m:, :m] = -self._shaft.G
-        return dense_detuning(state_matrix(self._shaft, speed), (of_rates, of_displacements), step)
+        A, scale = _scaled(self._shaft, speed, np.eye(m), np.zeros((m, m)))
+        push = _unscaled(scipy.linalg.expm(A * step), scale)[:, 2 * m :]
+        return Detuning(self._shaft.G, -1.0, np.ascontiguousarray(push), step)
+
+    def reading(self, forces: Array) -> Reading:
+        """What a motion is along modal forces."""
+        return Reading(scipy.linalg.block_diag(forces.T, forces.T))
 
 
 def state_matrix(shaft: ModalShaft, speed: float) -> Array:

@@ -14,7 +14,7 @@ import scipy.linalg as sl
 from numpy.typing import NDArray
 
 from rotor_fmu.foundation.foundation import Foundation
-from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps, fingerprint
+from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps, Reading, fingerprint
 from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 
@@ -40,18 +40,6 @@ def supported(shaft: ModalShaft, foundation: Foundation | None) -> ModalShaft:
         T=widened(shaft.T),
         massless=None if shaft.massless is None else np.append(shaft.massless, np.zeros(k, bool)),
     )
-
-
-@dataclass(frozen=True, eq=False)
-class _OfShaft(Detuning):
-    """Of the first numbers of the motion alone."""
-
-    states: int
-
-    def moved(self, motion: Array, difference: float, acceleration: float) -> Array:
-        after = np.zeros_like(motion)
-        after[: self.states] = super().moved(motion[: self.states], difference, acceleration)
-        return after
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +120,11 @@ class SupportedCoordinates:
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step of the shaft."""
-        return _OfShaft(self._shaft.detuning(speed, step).derivatives, self._states)
+        return self._shaft.detuning(speed, step)
+
+    def reading(self, forces: Array) -> Reading:
+        """What a motion is along modal forces of the shaft."""
+        return self._shaft.reading(forces)
 
     def maps(self, speed: float, step: float, harmonic: Array) -> SupportedMaps:
         """Maps over a step."""

@@ -76,14 +76,28 @@ class Turning:
         return complex(self.speed_at(after) ** 2, -self.acceleration) * cmath.exp(1j * self.angle_at(after))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class DetunedMaps:
-    """Maps of a reference speed at another one, see `rotor_fmu.vibration.coordinates.Maps`."""
+    """Maps of a reference speed at another one, see `rotor_fmu.vibration.coordinates.Maps`.
+
+    Attributes
+    ----------
+    base, half : Maps
+        Of the reference speed, over the step and over half of it.
+    detuning : Detuning
+        Of both.
+    difference, acceleration : float
+        Of the mean speed from the reference [rad/s], and of the rotor [rad/s2].
+    power : float
+        Of the gyroscopic force in the step that was taken last [W].
+    """
 
     base: Maps
+    half: Maps
     detuning: Detuning
     difference: float
     acceleration: float
+    power: float = 0.0
 
     @property
     def compliance(self) -> Compliance:
@@ -93,7 +107,11 @@ class DetunedMaps:
     def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
         """Motion at the end if the wrenches end with the step."""
         end = self.base.coast(motion, wrench, rotation)
-        return end + self.detuning.moved(motion, self.difference, self.acceleration)
+        middle = self.half.coast(motion, wrench, rotation)
+        self.half.add_end(wrench, middle)
+        pushed, self.power = self.detuning.pushed(middle, self.difference, self.acceleration)
+        end += pushed
+        return end
 
     def add_start(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the start do."""

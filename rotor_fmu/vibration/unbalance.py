@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -95,7 +96,7 @@ class Unbalance:
         """Modal force of the nominal unbalance, factors of (cos theta, sin theta), (m, 2)."""
         return _force(shaft, self.amount, self.phase, speed)
 
-    @property
+    @cached_property
     def losses(self) -> tuple[Loss, ...]:
         """All that appears during the run."""
         return Loss(self.fracture_time, self.blade_amount, self.blade_phase), *self.later
@@ -105,14 +106,17 @@ class Unbalance:
         lost = (_force(shaft, loss.amount, loss.phase, speed) for loss in self.losses)
         return np.hstack([self.nominal_force(shaft, speed), *lost])
 
+    def appeared(self, time: float) -> Array:
+        """1 for the nominal unbalance and each loss that has come by an instant, else 0, (1 + l,)."""
+        factors = np.ones(1 + len(self.losses))
+        for k, loss in enumerate(self.losses, 1):
+            if not (loss.time <= time or k in self.come):
+                factors[k] = 0.0
+        return factors
+
     def turned(self, time: float, pull: complex) -> Array:
         """Factors of the columns of `forces`: the pull of all that has appeared by now, (2 + 2 l,)."""
-        factors = np.zeros(2 + 2 * len(self.losses))
-        factors[:2] = pull.real, pull.imag
-        for index, loss in enumerate(self.losses, 1):
-            if loss.time <= time or index in self.come:
-                factors[2 * index : 2 * index + 2] = pull.real, pull.imag
-        return factors
+        return (self.appeared(time)[:, None] * (pull.real, pull.imag)).ravel()
 
     def lose(self, code: int) -> None:
         """Say which losses without an instant have come: the sum of 2^k of them, k from 0."""

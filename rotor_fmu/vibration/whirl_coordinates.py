@@ -16,8 +16,8 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
-from rotor_fmu.vibration.coordinates import Compliance, fingerprint
-from rotor_fmu.vibration.detuning import Detuning, block_detuning
+from rotor_fmu.vibration.coordinates import Compliance, Reading, fingerprint
+from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.first_order_hold import harmonic_hold, linear_hold
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import rotation_rate
@@ -157,10 +157,19 @@ class WhirlCoordinates:
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""
-        k = len(self._plane.omega)
-        gyroscopic = self._from_state[:, k:] @ (1j * self._plane.P)
-        directions = gyroscopic @ self._to_state[k:], gyroscopic @ self._to_state[:k]
-        return block_detuning(self._block, self._rates, directions, step)
+        k, slow = len(self._plane.omega), len(self._block)
+        into = self._from_state[:, k:]
+        held = np.zeros((2 * slow, 2 * slow), dtype=np.complex128)
+        held[:slow] = step * np.hstack([self._block, np.eye(slow)])
+        of_block = sl.expm(held)[:slow, slow:] @ into[:slow]
+        falling, rising = linear_hold(self._rates, step)
+        of_rates = (falling + rising)[:, None] * into[slow:]
+        return Detuning(self._plane.P, 1j, np.vstack([of_block, of_rates]), step, self._to_state)
+
+    def reading(self, forces: Array) -> Reading:
+        """What a motion is along modal forces of both planes."""
+        pairs, k = self._plane.harmonic(forces).conj().T, len(self._plane.omega)
+        return Reading(np.vstack([pairs @ self._to_state[:k], pairs @ self._to_state[k:]]))
 
     def _block_maps(self, step: float, load: Complex, pull: Complex) -> tuple[Complex, Complex, Complex]:
         """Block, start and end of the coupled motions by one exponential (Van Loan 1978)."""

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.modal_shaft import ModalShaft
-from rotor_fmu.vibration.spin import Spin, simpson
+from rotor_fmu.vibration.spin import simpson
 from rotor_fmu.vibration.state_space import augmented_matrix
-from rotor_fmu.vibration.turning import Turning
 from rotor_fmu.vibration.unbalance import Unbalance
 
 Array = NDArray[np.float64]
@@ -125,8 +124,6 @@ class WorkLedger:
         `WorkMaps` from speed, duration and instant at its end.
     unbalance : Unbalance
         Its excitation.
-    spin : Spin
-        The rotation, for its work at changing speed.
     """
 
     def __init__(
@@ -134,10 +131,8 @@ class WorkLedger:
         shaft: ModalShaft,
         maps: Callable[[float, float, float], WorkMaps],
         unbalance: Unbalance,
-        spin: Spin,
     ) -> None:
-        self._shaft, self._maps = shaft, maps
-        self._unbalance, self._spin = unbalance, spin
+        self._shaft, self._maps, self._unbalance = shaft, maps, unbalance
 
     def over_step(
         self,
@@ -185,30 +180,31 @@ class WorkLedger:
 
     def over_turned_step(
         self,
-        t: float,
-        turning: Turning,
+        H: float,
         states: tuple[Array, Array],
         wrenches: tuple[Array, Array],
         static: Equilibrium[np.float64],
+        driven: float,
     ) -> Work:
         """Works over a step at changing speed, by Simpson's rule on a motion that is cubic in time.
 
-        The exact forms would have to be made anew for each step.  Of the unbalance counts all that the drive
-        does, the moments of its acceleration included.
+        The exact forms would have to be made anew for each step.
 
         Parameters
         ----------
-        t, turning
-            Instant at the start [s], and how the rotor turns.
-        wrenches, static
-            As for `over_step`.
+        H : float
+            Its length [s].
         states : tuple of ndarray, (2 m,)
             At both ends.
+        wrenches, static
+            As for `over_step`.
+        driven : float
+            What the drive does on the vibration, as the work of the unbalance [J].
         """
-        H, (w0, w1) = turning.step, wrenches
-        points = simpson(states, H)
+        w0, w1 = wrenches
+        points = simpson((states[0].reshape(2, -1), states[1].reshape(2, -1)), H)
         damping = sum(weight * float(v @ (self._shaft.D @ v)) for _, weight, _, v in points)
         (p0, v0), (p1, v1) = points[0][2:], points[-1][2:]
         moved, turned = self._shaft.bearing @ (p1 - p0), self._shaft.bearing @ (v1 - v0)
         bearings = (0.5 * (w0 + w1) + static.wrench) @ moved + (w1 - w0) @ turned * (H / 12.0)
-        return Work(float(bearings), self._spin.work(t, turning, states), damping)
+        return Work(float(bearings), driven, damping)
