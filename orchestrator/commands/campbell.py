@@ -136,5 +136,10 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     largest = [float(errors.sel(shaft=name).max()) for name in methods]
     table.add_section()
     table.add_row("all", "", "", "", *(error_text(error, TOLERANCE) for error in largest))
-    table.caption = " ".join([COLUMNS_EXPLAINED, *filter(None, [data.attrs.get("missing", "")])])
+    table.caption = " ".join(
+        [
+            COLUMNS_EXPLAINED,
+            *filter(None, [data.attrs.get("missing") and f"Left out: {data.attrs['missing']}."]),
+        ]
+    )
     return table

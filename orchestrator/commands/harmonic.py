@@ -169,14 +169,14 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
         full = amplitude.sel(shaft=FULL).values
         compared = amplitude if force is None else force
         exact = float(compared.sel(shaft=FULL)[at])
-        errors = [float(compared.sel(shaft=other)[at]) / exact - 1.0 for other in reduced]
+        found = [float(compared.sel(shaft=other)[at]) for other in reduced]
         table.add_row(
             name,
             f"{full[at] * 1e6:.1f}",
             f"{full.max() * 1e6:.1f}",
-            f"{float(amplitude['rotation'][int(full.argmax())]):.2f}",
+            "end" if full.argmax() == len(full) - 1 else f"{amplitude['rotation'].values[full.argmax()]:.2f}",
             "" if force is None else f"{exact * 1e-3:.2f}",
-            *(f"{abs(error):.0e}" for error in errors),
+            *(f"{abs(value / exact - 1.0):.0e}" if exact else "" for value in found),
         )
 
     row("shaft, largest", shaft["amplitude"], None)
@@ -184,6 +184,7 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
     for seat in case.train.bearings:
         row(seat.name, places["amplitude"].sel(place=seat.name), forces["force"].sel(bearing=seat.name))
     table.caption = (
+        "End: it still rises at the end of the range. "
         f"Errors: of the amplitude in the first row, of the bearing forces in the others. {COLUMNS_EXPLAINED}"
     )
     return table

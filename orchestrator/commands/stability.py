@@ -65,6 +65,8 @@ def verdict(case: LinearCase, found: Stability) -> str:
     if not found.thresholds:
         low, high = (float(found.modes["rotation"][k]) for k in (0, -1))
         lines.append(f"No threshold between {low:.4g} and {high:.4g} Hz of rotation.")
+    if found.response is not None and not found.critical:
+        lines.append("No critical speed there: the unbalance response at the bearings has no peak.")
     if found.response is None:
         lines.append("Without unbalance there is no response, and no list of critical speeds.")
     if found.missing:

@@ -15,6 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from fmus.build.promises import AFFINE
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.file import FmuStore
@@ -106,10 +107,13 @@ class OverSpeed:
     def reachable(self, speeds: Sequence[float]) -> tuple[list[float], str]:
         """Those of the speeds at which there is an equilibrium, and why there is none at others, or nothing.
 
-        Each way from rated speed the search ends at the first without.
+        Each way from rated speed the search ends at the first without.  At standstill no film carries.
         """
         reached, reasons = [], []
-        below = sorted((s for s in speeds if s <= self._train.speed), reverse=True)
+        films = any(AFFINE not in unit.file.promises for unit in self._system.bearings)
+        if films and any(speed <= 0.0 for speed in speeds):
+            reasons.append("standstill, where no film carries")
+        below = sorted((s for s in speeds if (s > 0.0 or not films) and s <= self._train.speed), reverse=True)
         for direction in (below, sorted(s for s in speeds if s > self._train.speed)):
             for speed in direction:
                 try:

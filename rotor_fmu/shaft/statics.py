@@ -6,11 +6,9 @@ import math
 
 import numpy as np
 import scipy.linalg as sl
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from rotor_fmu.shaft.banded import cholesky
-from rotor_fmu.shaft.matrices import assemble
+from rotor_fmu.shaft.heights import loads_at_heights
 from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
@@ -79,36 +77,6 @@ def target_loads(train: Train, gravity: float | None = None) -> Array:
     loads = np.array([math.nan if b.load is None else b.load for b in seats])
     loads[free] = solution[2]
     return loads
-
-
-def loads_at_heights(train: Train, gravity: float) -> Array:
-    """Static bearing loads of a train whose bearings stand at given heights over a straight line.
-
-    A journal sinks in its film; here, before the film is known, as on a spring that the mean load deflects by
-    the clearance. The start of a run finds how far it sinks.
-
-    Parameters
-    ----------
-    train : Train
-        With the heights of all bearings.
-    gravity : float
-        g [m/s2].
-
-    Returns
-    -------
-    ndarray, (n_b,)
-        As from `target_loads`.
-    """
-    seats, model = train.bearings, assemble(train)
-    mean = max(gravity, 1.0) * train.mass / len(seats)
-    heights = np.array([seat.height or 0.0 for seat in seats])
-    stiff = np.array([mean / seat.clearance for seat in seats])
-    at = 2 * np.array([seat.node for seat in seats])
-    springs, load = np.zeros(2 * train.nodes), gravity * model.plane_gravity
-    np.add.at(springs, at, stiff)
-    np.add.at(load, at, stiff * heights)
-    shape = cholesky(sp.csr_array(model.plane_stiffness + sp.diags_array(springs))).solve(load)
-    return np.asarray(stiff * (heights - shape[at]))
 
 
 def _section_weights(train: Train, gravity: float) -> Array:

@@ -275,7 +275,8 @@ def _equilibrium(system: System, positions: Array, measure: Array) -> Array:
         if not np.all(np.isfinite(system.responses)):
             worst = int(np.argmin(np.isfinite(system.responses).all(axis=1)))
             unit = system.bearings[worst]
-            raise EquilibriumError(f"{unit.name}: no film at the trial position: {unit.reason}")
+            reason = unit.reason.removeprefix(f"{unit.name}: ")
+            raise EquilibriumError(f"{unit.name}: no film at the trial position: {reason}")
         step = _rest_under(system, system.responses[:, 4 : 4 + system.laws.shape[1]]) - positions
         size = np.abs(step / measure)
         if size.max() < TOLERANCE:

@@ -53,7 +53,7 @@ def test_a_train_that_cannot_be_read(tmp_path):
         shown(tmp_path / "none")
 
 
-def test_loads_from_heights_are_those_of_journals_that_do_not_sink(tmp_path):
+def test_loads_from_heights(tmp_path):
     """A bearing lowered by 0.2 mm under a shaft that is stiffer than any film is held down by kilonewtons."""
     for name in ("shaft.csv", "train.toml"):
         text = (EXAMPLE / name).read_text(encoding="utf-8")
@@ -61,6 +61,6 @@ def test_loads_from_heights_are_those_of_journals_that_do_not_sink(tmp_path):
             text = text.replace("[[bearing]]\nname", f"[[bearing]]\nheight = {height}\nname", 1)
         (tmp_path / name).write_text(text, encoding="utf-8")
     text = shown(tmp_path)
-    assert "Of journals that do not sink" in text
+    assert "As in short plain films" in text
     (row,) = [line for line in text.splitlines() if "held down" in line]
     assert float(row.split("│")[-2].split(",")[0]) < -1e3

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.optimize
 
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.file import load_train
@@ -121,6 +122,28 @@ def test_loads_from_heights():
     sag += weight * length / (8.0 * kappa * section.material.shear_modulus * section.area)
     middle = sag / compliance
     assert loads(0.0) == pytest.approx([(weight - middle) / 2.0, middle, (weight - middle) / 2.0], rel=1e-6)
+
+    angle, weights = np.polynomial.legendre.leggauss(60)
+    angle, weights = 0.5 * np.pi * (angle + 1.0), 0.5 * np.pi * weights
+
+    def sinks(load):
+        """In the pressure of the short bearing, integrated over its half: where it bears this load."""
+        b = train.bearings[0]
+        size = b.viscosity * train.speed * b.diameter / 4.0 * b.width**3 / b.clearance**2
+
+        def force(e):
+            pressure = np.sin(angle) / (1.0 + e * np.cos(angle)) ** 3
+            return size * e * np.array([[np.cos(angle)], [np.sin(angle)]] * pressure @ weights).ravel()
+
+        e = scipy.optimize.brentq(lambda e: np.hypot(*force(e)) - abs(load), 1e-9, 0.9, xtol=1e-13)
+        return math.copysign(b.clearance * e * abs(force(e)[0]) / np.hypot(*force(e)), load)
+
+    for height in (0.0, 2e-4, -3e-3):
+        seats = [replace(b, height=h) for b, h in zip(train.bearings, (0.0, height, 0.0), strict=True)]
+        found = target_loads(replace(train, bearings=tuple(seats)))
+        stands = np.array([0.0, height, 0.0]) - [sinks(load) for load in found]
+        assert stands[1] - stands[0] == pytest.approx(compliance * found[1] - sag, abs=1e-9)
+        assert found.sum() == pytest.approx(weight, rel=1e-9)
 
 
 ELASTIC = """
