@@ -5,14 +5,22 @@ import os
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")  # before numpy is loaded; for processes that tests start, too
 
+import signal  # noqa: E402
 import subprocess  # noqa: E402
 import sys  # noqa: E402
+from collections import Counter  # noqa: E402
+from contextlib import contextmanager  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 import numpy  # noqa: E402, F401
 import pytest  # noqa: E402
 from filelock import FileLock  # noqa: E402
 from threadpoolctl import threadpool_limits  # noqa: E402
+
+try:
+    import coverage
+except ImportError:
+    coverage = None
 
 from bearing_fmu import depths  # noqa: E402
 from orchestrator.fmi.folder import build  # noqa: E402
@@ -33,6 +41,7 @@ def pytest_configure(config):
     modules that it imports, whatever the environment says.
     """
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        config.option.loadscopereorder = False  # the order is that of `pytest_collection_modifyitems`
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         command = [
             sys.executable,
@@ -52,6 +61,87 @@ def pytest_configure(config):
         ]
         for process in started:
             process.wait()
+
+
+LONG = (
+    "tests/orchestrator/study/test_compare.py",
+    "tests/orchestrator/commands/test_any_shaft.py",
+    "tests/orchestrator/cli/test_cli.py",
+    "tests/properties/test_scenarios.py",
+    "tests/properties/test_readers.py",
+    "tests/properties/test_films.py",
+    "tests/orchestrator/cli/test_steadfast.py",
+    "tests/orchestrator/commands/test_ssp_commands.py",
+    "tests/orchestrator/commands/test_process_faults.py",
+    "tests/orchestrator/commands/test_machine_faults.py",
+    "tests/orchestrator/commands/test_linear_commands.py",
+    "tests/orchestrator/fmi/test_hanging_units.py",
+    "tests/orchestrator/fmi/test_units_that_end_the_process.py",
+    "tests/interop/test_tools.py",
+    "tests/fmus/test_leaves_nothing.py",
+    "tests/orchestrator/cli/test_your_machine.py",
+    "tests/bearing_fmu/test_cold_cache.py",
+)
+"""Files that take longest: workers begin with them, or else one works on them alone at the end."""
+
+
+def pytest_collection_modifyitems(config, items):
+    """For workers, order the files: long ones first, then those of many tests, as xdist orders them."""
+    if not hasattr(config, "workerinput"):
+        return
+    files = [item.nodeid.partition("::")[0] for item in items]
+    ranks = {name: (rank, 0) for rank, name in enumerate(LONG)}
+    for name, count in Counter(files).items():
+        ranks.setdefault(name, (len(LONG), -count))
+    order = sorted(range(len(items)), key=lambda index: (ranks[files[index]], files[index]))
+    items[:] = [items[index] for index in order]
+
+
+COUNTED_FOR, THEN_FOR, OF_EVERY = 1.0, 0.1, 0.5
+"""Processor time in s: lines of a test, and of what is set up for it, count at first, then now and then.
+
+Most lines run early, and then many times over; Python 3.11 takes a multiple of the time where it counts them.
+"""
+
+
+@contextmanager
+def _counted_at_first(item):
+    counting = coverage.Coverage.current() if coverage else None
+    if counting is None or sys.gettrace() is None or item.get_closest_marker("no_cover"):
+        yield  # nothing is counted, or without tracing
+        return
+    counted = True
+
+    def turn(*_):
+        nonlocal counted
+        (counting.stop if counted else counting.start)()
+        counted = not counted
+        signal.setitimer(signal.ITIMER_VIRTUAL, THEN_FOR if counted else OF_EVERY - THEN_FOR)
+
+    before = signal.signal(signal.SIGVTALRM, turn)
+    signal.siginterrupt(signal.SIGVTALRM, False)
+    signal.setitimer(signal.ITIMER_VIRTUAL, COUNTED_FOR)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
+        if not counted:
+            counting.start()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item):
+    """Count lines of fixtures at first."""
+    with _counted_at_first(item):
+        return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item):
+    """Count lines of a test at first."""
+    with _counted_at_first(item):
+        return (yield)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -17,8 +17,6 @@ from orchestrator.results.record_files import read_record
 from rotor_fmu.train import writer as train_writer
 from rotor_fmu.train.file import load_train
 
-pytestmark = pytest.mark.no_cover  # see test_linear_commands.py
-
 COMMANDS = ("modes", "campbell", "campbell --supported", "harmonic", "reductions")
 METHODS = ("irs", "irs-plain", "guyan", "craig-bampton", "none")
 LARGEST_ERROR = {"irs": 1e-7, "craig-bampton": 1e-7, "irs-plain": 2e-5, "guyan": 5e-3}

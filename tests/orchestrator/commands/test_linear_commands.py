@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-import os
 import re
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.file import FmuStore
 from orchestrator.fmi.folder import fmu_folder
 from orchestrator.fmi.unit import Status, UnitError
+from orchestrator.linear import campbell, response
 from orchestrator.linear import case as linear_case
 from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start
@@ -42,17 +42,17 @@ COMMANDS = {
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Results of all commands, in results/, and what they printed."""
+    """Results of all commands, in results/, and what they printed; diagrams have half their points."""
     folder = tmp_path_factory.mktemp("linear")
-    before = Path.cwd()
-    os.chdir(folder)
-    try:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.setattr(response, "INTERVALS", 60)
+        patch.setattr(campbell, "FREE_STEPS", 10)
+        patch.setattr(campbell, "SUPPORTED_STEPS", 12)
         for name, arguments in COMMANDS.items():
             result = CliRunner().invoke(app, [*arguments], env={"COLUMNS": "100", "TERM": "dumb"})
             assert result.exit_code == 0, result.output
             (folder / f"{name}.said").write_text(result.output)
-    finally:
-        os.chdir(before)
     return folder
 
 

@@ -65,12 +65,6 @@ def test_a_full_disk_while_figures_are_drawn(short, small_fmus, monkeypatch):
     assert read_record(out).attrs["status"] == "finished" and not (out / "figures").exists()
 
 
-def test_a_complete_folder_is_not_marked(short, small_fmus):
-    result, out = run(short, small_fmus)
-    assert result.exit_code == 0, result.output
-    assert not (out / "PARTIAL.txt").exists() and list((out / "figures").iterdir())
-
-
 @fault(
     "machine",
     "a disk that is full for HDF5, which ends the process when it cannot close a file",

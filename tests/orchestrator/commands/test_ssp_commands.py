@@ -39,54 +39,60 @@ def exported(small_fmus, tmp_path_factory):
     return folder
 
 
-def test_a_run_of_the_export_is_the_run_of_the_scenario(exported, small_fmus, tmp_path):
-    options = ("--no-figures", "--fmus", small_fmus, "--trust")
+@pytest.fixture(scope="module")
+def both(exported, small_fmus):
+    """Folders of a run of the export and of one of the scenario, both certified."""
+    options = ("--no-figures", "--fmus", small_fmus, "--trust", "--certify")
     for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
-        ran = call("run", exported / source, *options, "--out", tmp_path / out)
+        ran = call("run", exported / source, *options, "--out", exported / out)
         assert ran.exit_code == 0, ran.output
-    back, direct = read_record(tmp_path / "ssp"), read_record(tmp_path / "direct")
+    return exported / "ssp", exported / "direct"
+
+
+def test_a_run_of_the_export_is_the_run_of_the_scenario(both):
+    back, direct = map(read_record, both)
     np.testing.assert_array_equal(back["force"].values, direct["force"].values)
     assert back.attrs["ssp"].startswith("short.ssp sha256 ")
 
 
-def test_an_export_has_the_certificate_and_ledger_of_the_scenario(exported, small_fmus, tmp_path):
-    options = ("--no-figures", "--fmus", small_fmus, "--trust", "--certify")
-    certified = []
-    for source, out in (("short.ssp", "ssp"), ("short.toml", "direct")):
-        ran = call("run", exported / source, *options, "--out", tmp_path / out)
-        assert ran.exit_code == 0, ran.output
-        summary = json.loads((tmp_path / out / "summary.json").read_text())
-        certified.append((summary["certificate"], summary["ledger"]))
+def test_an_export_has_the_certificate_and_ledger_of_the_scenario(both):
+    summaries = [json.loads((folder / "summary.json").read_text()) for folder in both]
+    certified = [(summary["certificate"], summary["ledger"]) for summary in summaries]
     assert certified[0][0]["differences"] and certified[0][1]["unbalance"] > 0.0
     assert certified[0] == certified[1]
-
-
-def killed(path, fmus, out):
-    """Kill a run of an SSP behind its first checkpoint in the time loop."""
-    options = ("--fmus", fmus, "--out", out, "--no-figures", "--trust", "--checkpoint", "2e-4")
-    process = command("run", path, *options, "--step", "1e-6", "--end", "2e-3")
-    saved = checkpoint_folder(out)
-    while process.poll() is None and not (saved.is_dir() and checkpoint_time(saved) > 0.0):
-        time.sleep(0.02)
-    process.send_signal(signal.SIGKILL)
-    process.communicate()
-    assert process.returncode == -signal.SIGKILL and 0.0 < checkpoint_time(saved) < 2e-3
 
 
 def checkpoint_time(folder):
     return checkpoint.read(folder).time if (folder / checkpoint.FILE).is_file() else 0.0
 
 
-def test_a_killed_run_goes_on_to_the_same_record(exported, small_fmus, tmp_path):
-    options = ("--fmus", small_fmus, "--no-figures", "--trust", "--step", "1e-6", "--end", "2e-3")
-    whole = call("run", exported / "short.ssp", *options, "--out", tmp_path / "whole")
-    assert whole.exit_code == 0, whole.output
-    killed(exported / "short.ssp", small_fmus, tmp_path / "out")
-    resumed = call("resume", tmp_path / "out")
-    assert resumed.exit_code == 0, resumed.output
-    assert "Going on from t = 0.00" in resumed.output
-    assert read_record(tmp_path / "out").identical(read_record(tmp_path / "whole"))
-    assert not checkpoint_folder(tmp_path / "out").exists()
+LONG = ("--step", "1e-6", "--end", "2e-3")
+"""Enough steps to be killed in their midst."""
+
+
+@pytest.fixture(scope="module")
+def killed(exported, small_fmus, tmp_path_factory):
+    """Folder with an SSP, whose run was killed behind its first checkpoint in the time loop."""
+    folder = tmp_path_factory.mktemp("killed")
+    shutil.copy(exported / "short.ssp", folder / "mine.ssp")
+    options = (
+        "--fmus",
+        small_fmus,
+        "--out",
+        folder / "out",
+        "--no-figures",
+        "--trust",
+        "--checkpoint",
+        "2e-4",
+    )
+    process = command("run", folder / "mine.ssp", *options, *LONG)
+    saved = checkpoint_folder(folder / "out")
+    while process.poll() is None and not (saved.is_dir() and checkpoint_time(saved) > 0.0):
+        time.sleep(0.02)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert process.returncode == -signal.SIGKILL and 0.0 < checkpoint_time(saved) < 2e-3
+    return folder
 
 
 @fault(
@@ -95,15 +101,25 @@ def test_a_killed_run_goes_on_to_the_same_record(exported, small_fmus, tmp_path)
     "exit 2; both digests, `put that file back, or start anew`; the checkpoint is kept",
     guard="orchestrator.case.prepare:_ssp_case",
 )
-def test_a_run_of_another_ssp_is_not_resumed(exported, small_fmus, tmp_path):
-    shutil.copy(exported / "short.ssp", tmp_path / "mine.ssp")
-    killed(tmp_path / "mine.ssp", small_fmus, tmp_path / "out")
-    shutil.copy(exported / "short_force.ssp", tmp_path / "mine.ssp")
-    resumed = call("resume", tmp_path / "out")
+def test_a_run_of_another_ssp_is_not_resumed(exported, killed):
+    shutil.copy(exported / "short_force.ssp", killed / "mine.ssp")
+    resumed = call("resume", killed / "out")
+    shutil.copy(exported / "short.ssp", killed / "mine.ssp")
     assert resumed.exit_code == INPUT_ERROR, resumed.output
     assert "made with another" in resumed.stderr and "mine.ssp (sha256 " in resumed.stderr
-    assert resumed.stderr.count("\n") == 1 and not (tmp_path / "out").exists()
-    assert checkpoint_folder(tmp_path / "out").exists()
+    assert resumed.stderr.count("\n") == 1 and not (killed / "out").exists()
+    assert checkpoint_folder(killed / "out").exists()
+
+
+def test_a_killed_run_goes_on_to_the_same_record(killed, small_fmus):
+    options = ("--fmus", small_fmus, "--no-figures", "--trust", *LONG)
+    whole = call("run", killed / "mine.ssp", *options, "--out", killed / "whole")
+    assert whole.exit_code == 0, whole.output
+    resumed = call("resume", killed / "out")
+    assert resumed.exit_code == 0, resumed.output
+    assert "Going on from t = 0.00" in resumed.output
+    assert read_record(killed / "out").identical(read_record(killed / "whole"))
+    assert not checkpoint_folder(killed / "out").exists()
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""SSPs as other tools write them: units, mappings, transformations, connectors of systems, inner systems."""
+"""SSPs as other tools write them: units, mappings, transformations, versions, flags of units."""
 
 import re
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -12,47 +12,12 @@ from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
 from tests.faults import fault
 from tests.orchestrator.foreign import refused
+from tests.orchestrator.ssp.edited import SSD, edited, real, stated, values_of, with_parameter
 
-SSD = "SystemStructure.ssd"
 BINDING = '<ssd:ParameterBinding type="application/x-ssp-parameter-set" source="resources/front.ssv" />'
 MS = '<ssc:Unit name="ms"><ssc:BaseUnit s="1" factor="0.001" /></ssc:Unit>'
 POISE = '<ssc:Unit name="P"><ssc:BaseUnit kg="1" m="-1" s="-1" factor="0.1" /></ssc:Unit>'
 KELVIN = '<ssc:Unit name="K"><ssc:BaseUnit K="1" /></ssc:Unit>'
-
-
-def edited(source, target, changes):
-    """Copy an archive with texts of its members replaced once each; a pattern is a regular expression."""
-    with ZipFile(source) as archive, ZipFile(target, "w", ZIP_DEFLATED) as out:
-        for name in archive.namelist():
-            content = archive.read(name)
-            for old, new in changes.get(name, ()):
-                text, count = re.subn(old, lambda _, new=new: new, content.decode(), count=1, flags=re.DOTALL)
-                assert count == 1, old
-                content = text.encode()
-            out.writestr(name, content)
-    return target
-
-
-def real(name, value, unit=""):
-    attribute = f' unit="{unit}"' if unit else ""
-    return f'<ssv:Parameter name="{name}"><ssv:Real value="{value}"{attribute} /></ssv:Parameter>'
-
-
-def stated(name):
-    return rf'<ssv:Parameter name="{re.escape(name)}">.*?</ssv:Parameter>'
-
-
-def values_of(path, component):
-    with ssp_case(path) as case:
-        contents = case.units.contents
-        return {c.name: c for c in contents.structure.components}[component].parameters, case.scenario
-
-
-def with_parameter(small_ssp, tmp_path, component, name, text, units=""):
-    changes = [(stated(name), text)]
-    if units:
-        changes.append(("</ssv:Parameters>", f"</ssv:Parameters><ssv:Units>{units}</ssv:Units>"))
-    return edited(small_ssp, tmp_path / "my.ssp", {f"resources/{component}.ssv": changes})
 
 
 def test_units_are_converted_by_their_definitions(small_ssp, tmp_path):
@@ -241,86 +206,6 @@ def test_mapped_parameters(small_ssp, tmp_path):
         ]
     values, _ = values_of(edited(small_ssp, tmp_path / "my.ssp", changes), "front")
     assert values["viscosity"] == pytest.approx(0.015, rel=1e-15) and values["diameter"] == diameter
-
-
-def with_inner_system(text, extra="", changes=()):
-    """Move the component `front` into a system `casing`, whose connectors pass everything on."""
-    (component,) = re.findall(r'<ssd:Component name="front".*?</ssd:Component>', text, flags=re.DOTALL)
-    connectors = re.search(r"<ssd:Connectors>.*?</ssd:Connectors>", component, flags=re.DOTALL)[0]
-    inner = []
-    for name, kind in re.findall(r'<ssd:Connector name="([^"]*)" kind="(\w+)"', connectors):
-        ends = [("", name), ("front", name)] if kind == "input" else [("front", name), ("", name)]
-        start, end = (
-            f'{side}Element="{e}" ' if e else "" for side, (e, _) in zip(("start", "end"), ends, strict=True)
-        )
-        inner.append(f'<ssd:Connection {start}startConnector="{name}" {end}endConnector="{name}" />')
-    wires = "".join(inner)
-    for old, new in changes:
-        assert old in wires
-        wires = wires.replace(old, new, 1)
-    system = (
-        f'<ssd:System name="casing">{connectors}{extra}<ssd:Elements>{component}</ssd:Elements>'
-        f"<ssd:Connections>{wires}</ssd:Connections></ssd:System>"
-    )
-    text = text.replace(component, system)
-    return (
-        text.replace('startElement="front"', 'startElement="casing"', 10**6)
-        .replace('endElement="front"', 'endElement="casing"')
-        .replace(wires.replace('Element="front"', 'Element="casing"'), wires)
-    )
-
-
-def nested(small_ssp, tmp_path, **options):
-    with ZipFile(small_ssp) as archive:
-        text = archive.read(SSD).decode()
-    return edited(
-        small_ssp, tmp_path / "nested.ssp", {SSD: [(re.escape(text), with_inner_system(text, **options))]}
-    )
-
-
-def test_an_inner_system_is_the_same_system(small_ssp, tmp_path):
-    plain = read_ssp(small_ssp, tmp_path / "a")
-    inner = read_ssp(nested(small_ssp, tmp_path), tmp_path / "b")
-    assert {c.name for c in inner.components} == {
-        c.name.replace("front", "casing.front") for c in plain.components
-    }
-    renamed = {(c.source, c.output, c.target, c.input) for c in inner.connections}
-    assert {tuple(x.replace("casing.front", "front") for x in c) for c in renamed} == {
-        (c.source, c.output, c.target, c.input) for c in plain.connections
-    }
-    with ssp_case(nested(small_ssp, tmp_path)) as case:
-        assert [c.name for c in case.units.contents.bearings] == ["casing.front", "rear"]
-
-
-def inline(*parameters):
-    return (
-        "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet "
-        'xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" version="1.0" name="p">'
-        f"<ssv:Parameters>{''.join(parameters)}</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
-        "</ssd:ParameterBinding></ssd:ParameterBindings>"
-    )
-
-
-def test_values_of_a_system_win_and_travel_through_its_connectors(small_ssp, tmp_path):
-    extra = inline(real("front.viscosity", 0.017), real("journal.x", 1e-6))
-    values, _ = values_of(nested(small_ssp, tmp_path, extra=extra), "casing.front")
-    assert values["viscosity"] == 0.017 and values["journal.x"] == 1e-6
-    with (
-        pytest.raises(SspError, match=r"casing: parameter front_viscosity belongs to nothing"),
-        ssp_case(nested(small_ssp, tmp_path, extra=inline(real("front_viscosity", 0.017)))),
-    ):
-        pass
-
-
-def test_signals_must_travel_as_they_are(small_ssp, tmp_path):
-    wire = '<ssd:Connection startElement="front" startConnector="F0.Fx" endConnector="F0.Fx" />'
-    scaled = wire.replace(" />", '><ssc:LinearTransformation factor="{}" /></ssd:Connection>')
-    path = nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1000"))])
-    words = r"casing.front.F0.Fx -> rotor.bearing\[1\].F0.Fx: by transformation or units x comes as 1000 x"
-    with pytest.raises(SspError, match=words), ssp_case(path):
-        pass
-    with ssp_case(nested(small_ssp, tmp_path, changes=[(wire, scaled.format("1.0"))])):
-        pass
 
 
 def flagged(small_ssp, tmp_path, old, new, **changes):
