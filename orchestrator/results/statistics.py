@@ -6,8 +6,8 @@ Everything here reads the record (see `orchestrator.results.record`) and nothing
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -65,6 +65,11 @@ def interval_extreme(
     return series(record, name, bearing) if name in record else samples
 
 
+def of(units: str, *, least: bool = False) -> dict[str, Any]:
+    """What is known of a statistic besides its value: SI unit, and whether the least value is the worst."""
+    return {"units": units, "least": least}
+
+
 @dataclass(frozen=True)
 class BearingStatistics:
     """One bearing in one phase; forces N, moments N m, gaps m, times s.
@@ -91,21 +96,21 @@ class BearingStatistics:
 
     bearing: str
     phase: str
-    force_mean: float
-    force_max: float
-    moment_mean: float
-    moment_max: float
-    least_gap_mean: float
-    least_gap_harmonic: float
-    least_gap_min: float
-    centre_line_gap_mean: float
-    centre_line_gap_min: float
-    contact_first: float | None
-    contact_share: float
-    contact_max: float
-    sommerfeld_mean: float
-    contact_pressure_max: float = 0.0
-    wiped_max: float = 0.0
+    force_mean: float = field(metadata=of("N"))
+    force_max: float = field(metadata=of("N"))
+    moment_mean: float = field(metadata=of("N m"))
+    moment_max: float = field(metadata=of("N m"))
+    least_gap_mean: float = field(metadata=of("m", least=True))
+    least_gap_harmonic: float = field(metadata=of("m"))
+    least_gap_min: float = field(metadata=of("m", least=True))
+    centre_line_gap_mean: float = field(metadata=of("m", least=True))
+    centre_line_gap_min: float = field(metadata=of("m", least=True))
+    contact_first: float | None = field(metadata=of("s", least=True))
+    contact_share: float = field(metadata=of("1"))
+    contact_max: float = field(metadata=of("N"))
+    sommerfeld_mean: float = field(metadata=of("1"))
+    contact_pressure_max: float = field(default=0.0, metadata=of("Pa"))
+    wiped_max: float = field(default=0.0, metadata=of("1"))
 
 
 def contact_threshold(record: xr.Dataset, bearing: str, found: Sequence[Phase]) -> float:
@@ -225,12 +230,12 @@ class ShaftStatistics:
     """
 
     phase: str
-    amplitude_mean: float
-    amplitude_max: float
-    amplitude_position: float
-    stress_mean: float
-    stress_max: float
-    stress_position: float
+    amplitude_mean: float = field(metadata=of("m"))
+    amplitude_max: float = field(metadata=of("m"))
+    amplitude_position: float = field(metadata=of("m"))
+    stress_mean: float = field(metadata=of("Pa"))
+    stress_max: float = field(metadata=of("Pa"))
+    stress_position: float = field(metadata=of("m"))
 
 
 def shaft_statistics(record: xr.Dataset, phase: Phase) -> ShaftStatistics:

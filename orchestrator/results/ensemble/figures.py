@@ -9,7 +9,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from orchestrator.results.statistics import BearingStatistics, ShaftStatistics
-from orchestrator.results.summary import UNITS
 
 CONTACT, SHARE, LIMIT = "contact", "worst_share", "worst_limit"
 """Whether solids touch anywhere; of all limits the largest share that is used, and which one that is."""
@@ -38,19 +37,7 @@ class Figure:
 
 
 def _figures(model: type, dims: tuple[str, ...]) -> list[Figure]:
-    found = []
-    for field in fields(model):
-        if field.name not in ("phase", "bearing"):
-            words = field.name.split("_")
-            unit = UNITS.get("_".join(words[:2])) or next(
-                (UNITS[word] for word in words if word in UNITS), ""
-            )
-            unit = "m" if words[-1] == "position" else unit
-            unit = "s" if field.name == "contact_first" else "N" if field.name == "contact_max" else unit
-            unit = "Pa" if "pressure" in words else "1" if "sommerfeld" in words else unit
-            least = ("gap" in words and "harmonic" not in words) or field.name == "contact_first"
-            found.append(Figure(field.name, dims, unit, least))
-    return found
+    return [Figure(field.name, dims, **field.metadata) for field in fields(model) if field.metadata]
 
 
 OF_BEARINGS = _figures(BearingStatistics, ("period", "bearing"))
