@@ -51,6 +51,8 @@ class Solver:
         Whether it knows other bores than the plain one.
     stock : Stock, optional
         From which films share their work spaces; by default each film has its own.
+    pads : kernel, optional
+        From `bearing_fmu.tilting.evaluate.pads_kernel`, where it knows tilting pads.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Solver:
     boundaries: tuple[str, ...] = ("guembel",)
     bores: bool = False
     stock: Stock | None = None
+    pads: Callable[..., int] | None = None
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """The film of one bearing at one instant as a picture: pressure and gap over the unwrapped bearing.
 
-What a film leaves in its work space after an evaluation is read; nothing is solved anew.
+What a film leaves in its work space after an evaluation is read; nothing is solved anew.  Of tilting pads
+each has its film.
 """
 
 from __future__ import annotations
@@ -63,6 +64,7 @@ def film_map(
     *,
     columns: int = 121,
     rows: int = 25,
+    tilts: ArrayLike | None = None,
 ) -> FilmMap | None:
     """Evaluate a film and draw it.
 
@@ -78,11 +80,13 @@ def film_map(
         Rotor speed in rad/s.
     columns, rows : int
         Points around the circumference and along the axis.
+    tilts : array_like, shape (pads,), optional
+        Of tilting pads about their pivots, rad; by default as they stand at rest there.
 
     Returns
     -------
     FilmMap or None
-        None for a depth that solves no film, whose film cannot be looked into, or with tilting pads.
+        None for a depth that solves no film, or whose film cannot be looked into.
 
     Raises
     ------
@@ -92,12 +96,14 @@ def film_map(
     if depth not in depths.films():
         return None
     film = depths.find(depth).make(values)
-    if not isinstance(film, Film) or isinstance(film, TiltingFilm):
+    if not isinstance(film, Film):
         return None
     inputs = np.zeros(INPUTS)
     inputs[:4], inputs[4:8], inputs[16] = np.asarray(q) + film.offset, v, speed
     angle = np.linspace(0.0, TURN, columns)
     place = np.linspace(-1.0, 1.0, rows)
+    if isinstance(film, TiltingFilm):
+        return _of_pads(film, inputs, angle, place, None if tilts is None else np.asarray(tilts, float))
     space, data = film.take()
     try:
         status = film.solver.kernel(inputs, film.offset, np.empty(OUTPUTS), *data)
@@ -115,6 +121,27 @@ def film_map(
     if not film.solver.tilts:
         seen[2:] = 0.0
     return FilmMap(angle, place * 0.5 * p.width, absolute, _gap(p, seen, angle, place))
+
+
+def _of_pads(
+    film: TiltingFilm, inputs: Floats, angle: Floats, place: Floats, tilts: Floats | None
+) -> FilmMap | None:
+    """What the films of pads hold; between them is the oil of the supply."""
+    p, shape = film.parameters, (place.size, angle.size)
+    pressure, gap = np.full(shape, p.feed_pressure), np.full(shape, np.nan)
+    for pad, shift, (constants, _, _, solved, work) in film.looked_into(inputs, tilts):
+        here = _pressure(solved, constants[0], work[4:8], work[8:12], float(inputs[16]), angle, place)
+        if here is None:
+            return None
+        seen = inputs[:4] - film.offset
+        seen[:2] += shift
+        if not film.solver.tilts:
+            seen[2:] = 0.0
+        own = _gap(pad, seen, angle, place)
+        on = np.isfinite(own)
+        gap[on] = own[on]
+        pressure[on] = (np.maximum(here + constants[0]["ambient"], 0.0) * constants[0]["pressure"])[on]
+    return FilmMap(angle, place * 0.5 * p.width, pressure, gap)
 
 
 def _pressure(

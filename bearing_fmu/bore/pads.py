@@ -76,9 +76,9 @@ def cells_of(bore: Sequence[Arc], columns: int) -> tuple[list[int], list[int]]:
     return cells, behind
 
 
-def pads(bore: Sequence[Arc], columns: int) -> Pads:
-    """Prepare a bore for films of `columns`."""
-    cells, behind = cells_of(bore, columns)
+def pads(bore: Sequence[Arc], columns: int, split: tuple[list[int], list[int]] | None = None) -> Pads:
+    """Prepare a bore for films of `columns`, by default `split` as `cells_of` does."""
+    cells, behind = split or cells_of(bore, columns)
     first = np.concatenate(([0], np.cumsum(np.add(cells, behind))[:-1])).astype(np.int64)
     centre, inside = np.zeros((2, 2, columns)), np.zeros((2, columns))
     rest, held = np.zeros((2, RING_ROWS, columns)), set()

@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 _ROUNDS = 200
 _MET = 1e-9
 _BOLD, _NEAREST = 0.4, 0.01  # step over the gap, and the least of it over the clearance
+_PATIENCE = 40  # rounds between which steps are bounded to half of before, as pads may begin to carry
 _STILL = np.zeros(4)
 
 
@@ -86,15 +87,23 @@ def carried(
     force, clearance = np.asarray(load, float), film.parameters.clearance
     size = float(np.hypot(*force))
     position = np.array(0.1 * clearance * force / size if start is None else start)
-    for _ in range(_ROUNDS):
+    for rounds in range(_ROUNDS):
         found = film.respond(np.array([*position, *tilts]), _STILL, speed)
         missing = -force - found.wrench[:2]
         if float(np.hypot(*missing)) < _MET * size:
             return Carried(force, speed, position, found)
-        step = np.linalg.solve(found.stiffness[:2, :2], -missing)
-        most = _BOLD * max(found.h_min, _NEAREST * clearance)
+        step = _step(found.stiffness[:2, :2], -missing, clearance)
+        most = _BOLD * max(found.h_min, _NEAREST * clearance) * 0.5 ** (rounds // _PATIENCE)
         position = position + step * min(1.0, most / float(np.hypot(*step)))
     raise ArithmeticError(f"no position was found where the film carries {size:.4g} N")
+
+
+def _step(stiffness: Floats, net: Floats, clearance: float) -> Floats:
+    """Newton's step under the net force; where nothing holds the journal, in the direction of the force."""
+    try:
+        return np.asarray(np.linalg.solve(stiffness, net))
+    except np.linalg.LinAlgError:
+        return clearance * net / float(np.hypot(*net))
 
 
 def carried_each(

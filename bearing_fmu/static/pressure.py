@@ -97,11 +97,12 @@ def _of_pads(parameters: BearingParameters, q: Floats, v: Floats, speed: float) 
     """The films of all pads where they stand at rest."""
     bearing = TiltingFilm(SOLVER, parameters)
     maps = []
-    for pad, place in zip(bearing.pads, bearing.places(q, speed), strict=True):
+    places = bearing.places(q, speed)
+    for pad, axes, place in zip(bearing.pads, bearing.axes, places, strict=True):
         seen = np.array(q, dtype=float)
-        seen[:2] += place @ np.array(pad.axes)
-        one = pressure_map(pad.film.parameters, seen, v, speed)
-        on = [pad.arc.covers(float(angle)) for angle in one.angle]
+        seen[:2] += place @ axes
+        one = pressure_map(pad, seen, v, speed)
+        on = [pad.arcs[0].covers(float(angle)) for angle in one.angle]
         maps.append((one.angle[on], one.pressure[on], one.z, one.side_flow))
     angle = np.concatenate([one[0] for one in maps])
     order = np.argsort(angle)

@@ -15,8 +15,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.compiled import inner_kernel, kernel
+from bearing_fmu.contact.slice import FORCE_SLOPE
+from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.outputs import OUT_C, OUT_GAP, OUT_K, OUT_WRENCH
+from bearing_fmu.tilting.pad import ACROSS, COMPLIANCE, Pivot
+from bearing_fmu.tilting.search import SHARE, SLOPE, D, W
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -62,16 +65,16 @@ def _freed(
             result[i, j] -= (held[i, 0] + rubbing[i, 0]) * x + (held[i, 1] + rubbing[i, 1]) * y
 
 
-@kernel
+@inner_kernel
 def add_condensed(
     out: Floats,
-    touch: Floats,
-    axes: Floats,
-    compliance: float,
-    place: Floats,
+    contact: Floats,
+    pivot: Pivot,
+    search: Floats,
     rate: float,
     grip: float,
     frequency: float,
+    matrices: Complex,
     total: Floats,
 ) -> None:
     """Add a pad's wrench, stiffness and damping to those of the bearing; take away what was left of balance.
@@ -80,14 +83,12 @@ def add_condensed(
     ----------
     out : ndarray, shape (58,)
         What the film of the pad has written at its place, without solid friction.
-    touch : ndarray, shape (16,)
-        Derivative of the solid contact's wrench by the position.
-    axes : ndarray, shape (2, 2)
-        Of d and w.
-    compliance : float
-        Of the pivot, m/N.
-    place : ndarray, shape (2,)
-        d and w, m; corrected.
+    contact : ndarray, shape (CONTACT_RESULTS,)
+        Its solid contact.
+    pivot : ndarray, shape (PIVOT,)
+        The pad.
+    search : ndarray, shape (SEARCH,)
+        As it has ended; its place is corrected.
     rate : float
         Of the balance.
     grip : float
@@ -95,36 +96,45 @@ def add_condensed(
     frequency : float
         At rest, of the small motions for which stiffness and damping hold, rad/s; 0: of a position that
         changes slowly and a velocity that changes quickly.
+    matrices : ndarray, shape (5, 4, 4)
+        Work space.
     total : ndarray, shape (58,)
         In the order of the port; to which is added.
     """
-    k, c = np.empty((4, 4), np.complex128), np.empty((4, 4), np.complex128)
-    held, freed, rubbing = np.empty((4, 4), np.complex128), np.empty((4, 4), np.complex128), np.empty((4, 4))
-    spring = 1.0 / compliance if compliance > 0.0 else 0.0
+    k, c, held, freed, rubbing = matrices[0], matrices[1], matrices[2], matrices[3], matrices[4].real
+    axes = pivot[ACROSS:COMPLIANCE].reshape(2, 2)
+    share = search[SHARE]
+    spring = 1.0 / pivot[COMPLIANCE] if pivot[COMPLIANCE] > 0.0 else 0.0
     for i in range(4):
         other, sign = (i + 1, 1.0) if i % 2 == 0 else (i - 1, -1.0)
         for j in range(4):
             k[i, j], c[i, j] = out[OUT_K + 4 * i + j], out[OUT_C + 4 * i + j]
             held[i, j] = k[i, j] + rate * c[i, j]
             # friction is the pressure of the contact turned by a right angle from x to y
-            rubbing[i, j] = sign * grip * touch[4 * other + j]
-        total[OUT_WRENCH + i] += out[OUT_WRENCH + i] - sign * grip * out[OUT_GAP + 5 + other]
-    first = axes[0, 0] * out[0] + axes[0, 1] * out[1]
-    second = axes[1, 0] * out[0] + axes[1, 1] * out[1] - spring * place[1]
-    d, w = _solved(held, axes, spring, first + 0.0j, second + 0.0j)
-    x, y = (d * axes[0, 0] + w * axes[1, 0]).real, (d * axes[0, 1] + w * axes[1, 1]).real
-    place[0] += d.real
-    place[1] += w.real
-    for i in range(4):
-        total[OUT_WRENCH + i] -= (held[i, 0].real + rubbing[i, 0]) * x + (held[i, 1].real + rubbing[i, 1]) * y
+            rubbing[i, j] = sign * grip * contact[FORCE_SLOPE + 4 * other + j]
+        total[OUT_WRENCH + i] += share * (out[OUT_WRENCH + i] - sign * grip * out[OUT_GAP + 5 + other])
+    if share < 1.0 and frequency == 0.0:
+        _add_left(out, pivot, share, search[SLOPE], total)
+        return
+    if share == 1.0:
+        first = axes[0, 0] * out[0] + axes[0, 1] * out[1]
+        second = axes[1, 0] * out[0] + axes[1, 1] * out[1] - spring * search[W]
+        d, w = _solved(held, axes, spring, first + 0.0j, second + 0.0j)
+        x, y = (d * axes[0, 0] + w * axes[1, 0]).real, (d * axes[0, 1] + w * axes[1, 1]).real
+        search[D] += d.real
+        search[W] += w.real
+        for i in range(4):
+            total[OUT_WRENCH + i] -= (held[i, 0].real + rubbing[i, 0]) * x + (
+                held[i, 1].real + rubbing[i, 1]
+            ) * y
     if rate == 0.0 and frequency > 0.0:
         for i in range(4):
             for j in range(4):
                 held[i, j] = k[i, j] + 1j * frequency * c[i, j]
         _freed(held, held, rubbing, 1.0, axes, spring, freed)
         for i in range(16):
-            total[OUT_K + i] += freed[i // 4, i % 4].real
-            total[OUT_C + i] += freed[i // 4, i % 4].imag / frequency
+            total[OUT_K + i] += share * freed[i // 4, i % 4].real
+            total[OUT_C + i] += share * freed[i // 4, i % 4].imag / frequency
     else:
         _freed(held, k, rubbing, 1.0, axes, spring, freed)
         for i in range(16):
@@ -136,3 +146,18 @@ def add_condensed(
         _freed(held, c, rubbing, 0.0, axes, spring, freed)
         for i in range(16):
             total[OUT_C + i] += freed[i // 4, i % 4].real
+
+
+@inner_kernel
+def _add_left(out: Floats, pivot: Pivot, share: float, slope: float, total: Floats) -> None:
+    """Stiffness and damping of a pad that is left where it is, of which a share counts, see `search`."""
+    size = np.hypot(out[0], out[1])
+    moment = pivot[ACROSS] * out[0] + pivot[ACROSS + 1] * out[1]
+    sense = -1.0 if moment > 0.0 else 1.0
+    for j in range(4):
+        x, y = out[OUT_K + j], out[OUT_K + 4 + j]
+        grows = moment * (out[0] * x + out[1] * y) / size**2 - (pivot[ACROSS] * x + pivot[ACROSS + 1] * y)
+        shed = -slope * sense * grows / size
+        for i in range(4):
+            total[OUT_K + 4 * i + j] += share * out[OUT_K + 4 * i + j] - shed * out[OUT_WRENCH + i]
+            total[OUT_C + 4 * i + j] += share * out[OUT_C + 4 * i + j]

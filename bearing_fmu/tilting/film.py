@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.bore.pads import cells_of
-from bearing_fmu.contact.contact import CREEP
-from bearing_fmu.contact.slice import FORCE_SLOPE
-from bearing_fmu.evaluate import CONTACT
+from bearing_fmu.bore.pads import Pads
 from bearing_fmu.film import Film, Solver
-from bearing_fmu.outputs import HOTTEST, OUT_C, OUT_F0, OUT_GAP, OUT_K, OUTPUTS
+from bearing_fmu.outputs import OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.status import NO_SOLUTION, OK
-from bearing_fmu.tilting.balance import Balance
-from bearing_fmu.tilting.condense import add_condensed
-from bearing_fmu.tilting.pad import Pad
+from bearing_fmu.status import OK
+from bearing_fmu.tilting.pad import ACROSS, COMPLIANCE, alone, pivots
 from fmus import port
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
 
-_NOTHING = 1e-12
+_ALL = slice(None)
 _AT_ONCE = 1e-6  # of a radian of the rotation: in which pads come to their velocity at the start
 _DETAILS = {v.name: OUTPUTS + i for i, v in enumerate(port.BEARING_DETAILS)}
 _FIRST_TILT = _DETAILS["pad_tilt[1]"]
-# Among the outputs from `OUT_GAP` on: what is the largest of all pads', and what their sum.
-_LARGEST, _SUMS = (3, 12, 13), (4, 14, 15, 16)
-_TOUCH = slice(CONTACT + FORCE_SLOPE, CONTACT + FORCE_SLOPE + 16)
 
 
 class TiltingFilm(Film):
@@ -46,6 +38,13 @@ class TiltingFilm(Film):
     whirl : float
         Frequency over the speed of the small motions for which stiffness and damping at the start hold, see
         `bearing_fmu.tilting.condense`.
+
+    Attributes
+    ----------
+    pads : list of BearingParameters
+        Each pad as a bearing of its own.
+    axes : ndarray, shape (pads, 2, 2)
+        How the journal moves as seen from a pad with d and with w.
     """
 
     def __init__(
@@ -56,12 +55,13 @@ class TiltingFilm(Film):
         whirl: float = 0.0,
     ) -> None:
         super().__init__(solver, parameters, offset)
-        cells, _ = cells_of(parameters.arcs, parameters.columns)
-        self.pads = [Pad(solver, parameters, a, n) for a, n in zip(parameters.arcs, cells, strict=True)]
+        if solver.pads is None:
+            raise ValueError(f"bearing parameter bore: the {solver.name} film knows fixed arcs only")
+        self.pads, self._bores = alone(parameters)
         self.whirl = whirl
-        self._axes = np.array([pad.axes for pad in self.pads])
-        p = parameters
-        self._unit = 6.0 * p.viscosity * (p.radius / p.clearance) ** 2 * p.radius * 0.5 * p.width
+        self._pivots = pivots(parameters.arcs)
+        self.axes = self._pivots[:, ACROSS:COMPLIANCE].reshape(-1, 2, 2)
+        self._one, self._kernel_of_pads = Film(solver, self.pads[0]), solver.pads
 
     @classmethod
     def of(cls, solver: Solver, values: Mapping[str, Value]) -> TiltingFilm:
@@ -92,6 +92,42 @@ class TiltingFilm(Film):
         _, state = self.evaluate(self.rest(), inputs, 0.0)
         return state.reshape(-1, 2, 2)[:, 0]
 
+    def looked_into(
+        self, inputs: Floats, tilts: Floats | None
+    ) -> Iterator[tuple[BearingParameters, Floats, tuple[Any, ...]]]:
+        """The pads one after another, each film as it is solved.
+
+        Parameters
+        ----------
+        inputs : ndarray, shape (17,)
+            Of the port.
+        tilts : ndarray, shape (pads,), optional
+            Of the pads about their pivots, rad; by default as they stand at rest.  They have the velocities
+            with which their films hold them.
+
+        Yields
+        ------
+        pad, shift, data
+            The pad as a bearing of its own; by what it sees the journal moved, m; what `Film.take` gives.
+        """
+        _, state = self.evaluate(self.rest(), inputs, 0.0)
+        places = state.reshape(-1, 2, 2)
+        places[:, 1] = 0.0
+        if tilts is not None:
+            places[:, 0, 0] = self.parameters.radius * tilts
+        rate, out = 2.0 * max(abs(float(inputs[16])), 1.0) / _AT_ONCE, np.empty(OUTPUTS)
+        for k, pad in enumerate(self.pads):
+            space, data = self._one.take()
+            try:
+                now = np.zeros((1, 2, 2))
+                chosen = slice(k, k + 1)
+                status = self._evaluate(data, inputs, self.offset, places[chosen], rate, now, out, chosen)
+                if status != OK:
+                    raise self.failure(status, inputs, self.offset)
+                yield pad, now[0, 0] @ self.axes[k], data
+            finally:
+                self._one.bring_back(space)
+
     def _advance(
         self, state: Floats, inputs: Floats, offset: Floats, dt: float, out: Floats
     ) -> tuple[int, Floats]:
@@ -106,75 +142,46 @@ class TiltingFilm(Film):
             rate = 2.0 * max(abs(float(inputs[16])), 1.0) / _AT_ONCE
             status, now = self._balance(now, inputs, offset, rate, out)
             out[OUT_K:OUT_GAP] = law
-            self._set_constant(inputs, out)
+            moved = inputs[:8] - inputs[8:16]
+            k, c = law[:16].reshape(4, 4), law[16:].reshape(4, 4)
+            out[OUT_F0:OUT_K] = out[:OUT_F0] + k @ moved[:4] + c @ moved[4:]
         return status, now
 
     def _balance(
         self, state: Floats, inputs: Floats, offset: Floats, rate: float, out: Floats
     ) -> tuple[int, Floats]:
         """Bring all pads in balance and add up what they give; `rate` is 2/dt, or 0 at rest."""
-        pads, p, speed = len(self.pads), self.parameters, float(inputs[16])
-        then = state.reshape(pads, 2, 2) if state.size else np.zeros((pads, 2, 2))
-        now = np.zeros((pads, 2, 2))
-        creeping = float(np.abs(inputs[4:6] - inputs[12:14]).max()) / p.clearance
-        nothing = _NOTHING * self._unit * max(abs(speed), creeping)
-        slides = speed * p.radius
-        grip = p.friction * slides / math.hypot(slides, CREEP)
-        frequency = self.whirl * abs(speed)
-        out[:] = 0.0
-        out[OUT_GAP : OUT_GAP + 2] = np.inf
-        for k, pad in enumerate(self.pads):
-            anchor = then[k, 0] + then[k, 1] / rate if rate > 0.0 else then[k, 0]
-            d, w = (2.0 * anchor - then[k, 0]).tolist()  # as the velocity takes it on
-            balance = Balance(pad, inputs, offset, rate, (anchor[0], anchor[1]), nothing)
-            space, data = pad.film.take()
-            try:
-                status, *place = balance.settle(d, w, data)
-                if status != OK:
-                    return status, state
-                now[k, 0] = place
-                axes, touch = self._axes[k], data[-1][_TOUCH]
-                add_condensed(balance.out, touch, axes, pad.compliance, now[k, 0], rate, grip, frequency, out)
-            finally:
-                pad.film.bring_back(space)
-            self._add(balance.out[OUT_GAP:], grip, abs(slides), out[OUT_GAP:OUTPUTS])
-            now[k, 1] = rate * (now[k, 0] - anchor)
-            out[_FIRST_TILT + k] = now[k, 0, 0] / p.radius
-        self._set_constant(inputs, out)
-        self._conclude(inputs, offset, out)
-        if not np.isfinite(out).all():
-            return NO_SOLUTION, state
+        shape = len(self.pads), 2, 2
+        then, now = state.reshape(shape) if state.size else np.zeros(shape), np.zeros(shape)
+        space, data = self._one.take()
+        try:
+            status = self._evaluate(data, inputs, offset, then, rate, now, out[:OUTPUTS])
+        finally:
+            self._one.bring_back(space)
+        if status != OK:
+            return status, state
+        out[_FIRST_TILT : _FIRST_TILT + shape[0]] = now[:, 0, 0] / self.parameters.radius
         return OK, now.ravel()
 
-    def _add(self, one: Floats, grip: float, slides: float, total: Floats) -> None:
-        """Add to the bearing what a pad's film tells beside its law."""
-        if one[0] < total[0]:
-            total[0], total[2] = one[0], one[2]
-        total[1] = min(total[1], one[1])
-        for i in _LARGEST:
-            total[i] = max(total[i], one[i])
-        for i in _SUMS:
-            total[i] += one[i]
-        for i, (other, sign) in enumerate(((6, -grip), (5, grip), (8, -grip), (7, grip)), start=5):
-            total[i] += one[i] + sign * one[other]
-        total[9] += one[9] + self.parameters.friction * slides * one[4]
-
-    def _set_constant(self, inputs: Floats, out: Floats) -> None:
-        """F0 of the law."""
-        relative = inputs[:8] - inputs[8:16]
-        out[OUT_F0:OUT_K] = (
-            out[:OUT_F0]
-            + out[OUT_K:OUT_C].reshape(4, 4) @ relative[:4]
-            + out[OUT_C:OUT_GAP].reshape(4, 4) @ relative[4:]
+    def _evaluate(
+        self,
+        data: tuple[Any, ...],
+        inputs: Floats,
+        offset: Floats,
+        then: Floats,
+        rate: float,
+        now: Floats,
+        out: Floats,
+        chosen: slice = _ALL,
+    ) -> int:
+        """Call the kernel for some of the pads; a code of `FilmStatus`."""
+        constants, table, _, film, work = data
+        pivots, bores = self._pivots[chosen], self._bores
+        if chosen is not _ALL:
+            bores = Pads(*(field[chosen] for field in bores))
+        settings = rate, self.whirl, self.parameters.friction
+        return int(
+            self._kernel_of_pads(
+                inputs, offset, then, *settings, pivots, bores, constants, table, film, work, now, out
+            )
         )
-
-    def _conclude(self, inputs: Floats, offset: Floats, out: Floats) -> None:
-        """Eccentricity, Sommerfeld number and temperature of the whole bearing."""
-        p, speed = self.parameters, abs(float(inputs[16]))
-        told = out[OUT_GAP:OUTPUTS]
-        told[10] = math.hypot(*(inputs[:2] - inputs[8:10] - offset[:2])) / p.clearance
-        rate = p.viscosity * speed * p.width * p.diameter * (p.radius / p.clearance) ** 2
-        told[11] = math.hypot(out[0], out[1]) / rate if rate > 0.0 else 0.0
-        power, carried = max(told[9], 0.0), 2.0 * p.density * p.heat_capacity * told[16]
-        rise = power / carried if power < HOTTEST * carried else (HOTTEST if power > 0.0 else 0.0)
-        told[17] = p.supply_temperature + rise

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bearing_fmu.film_map import FilmMap, film_map
+from fmus import port
 from orchestrator.results.quantities import FORCE, GAP, shown
 from orchestrator.results.statistics import contact_threshold
 from orchestrator.results.windows import phases
@@ -86,7 +87,14 @@ def _film(one: xr.Dataset, index: int, columns: int, rows: int) -> FilmMap | Non
     q = np.concatenate([now["displacement"] - now["offset"], now["tilt"] - now["offset_tilt"]])
     v = np.concatenate([now["velocity"], now["tilt_rate"]])
     speed = float(now["rotation_speed" if "rotation_speed" in now else "rotor_speed"])
+    tilts = (
+        now["pad_tilt"].values[: port.pads_in(str(values[port.BEARING_KEYS["bore"]]))]
+        if "pad_tilt" in now
+        else None
+    )
     try:
-        return film_map(str(one["depth"].values), values, q, v, speed, columns=columns, rows=rows)
+        return film_map(
+            str(one["depth"].values), values, q, v, speed, columns=columns, rows=rows, tilts=tilts
+        )
     except (ArithmeticError, KeyError, ValueError):  # of another version, or beyond what a film answers
         return None

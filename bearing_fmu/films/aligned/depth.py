@@ -23,6 +23,7 @@ from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
+from bearing_fmu.tilting.evaluate import pads_kernel
 from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.variable import Value
 
@@ -53,7 +54,13 @@ def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFi
     return aligned_film(parameters.columns, parameters.rows, parameters.diameter / parameters.width)
 
 
-SOLVER = Solver("aligned", port_kernel("aligned", _solve, add_aligned), _prepare, bores=True)
+SOLVER = Solver(
+    name="aligned",
+    kernel=port_kernel("aligned", _solve, add_aligned),
+    prepare=_prepare,
+    bores=True,
+    pads=pads_kernel("aligned", _solve, add_aligned),
+)
 
 ON_LAYER = replace(LAYERED, name="aligned", tilts=False)
 """On a soft layer, which the pressure bends along the axis, too."""

@@ -27,6 +27,7 @@ from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
+from bearing_fmu.tilting.evaluate import pads_kernel
 from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.variable import Value
 
@@ -106,6 +107,7 @@ SOLVER = Solver(
     bores=True,
     boundaries=("guembel", "reynolds"),
     stock=STOCK,
+    pads=pads_kernel("tilted", _solve, add_tilted),
 )
 
 
