@@ -178,7 +178,7 @@ class TiltingFilm(Film):
         constants, table, _, film, work = data
         pivots, bores = self._pivots[chosen], self._bores
         if chosen is not _ALL:
-            bores = Pads(*(field[chosen] for field in bores))
+            bores = Pads._make(field[chosen] for field in bores)
         settings = rate, self.whirl, self.parameters.friction
         return int(
             self._kernel_of_pads(
