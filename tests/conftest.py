@@ -9,8 +9,10 @@ import signal  # noqa: E402
 import subprocess  # noqa: E402
 import sys  # noqa: E402
 from collections import Counter  # noqa: E402
-from contextlib import contextmanager  # noqa: E402
+from contextlib import contextmanager, suppress  # noqa: E402
+from importlib import import_module  # noqa: E402
 from pathlib import Path  # noqa: E402
+from pkgutil import walk_packages  # noqa: E402
 
 import numpy  # noqa: E402, F401
 import pytest  # noqa: E402
@@ -83,6 +85,16 @@ LONG = (
     "tests/bearing_fmu/test_cold_cache.py",
 )
 """Files that take longest: workers begin with them, or else one works on them alone at the end."""
+
+
+def pytest_collection():
+    """Where lines are counted, import all modules: what stands outside their functions runs but once."""
+    if not (coverage and coverage.Coverage.current()):
+        return
+    for package in ("fmus", "rotor_fmu", "bearing_fmu", "orchestrator"):
+        for module in walk_packages(import_module(package).__path__, f"{package}."):
+            with suppress(ImportError):  # of a library that is not installed
+                import_module(module.name)
 
 
 def pytest_collection_modifyitems(config, items):
