@@ -28,6 +28,7 @@ from orchestrator.master.start.heat import as_it_runs
 from orchestrator.master.start.journal_position import evaluate
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import RunEnd, run
+from orchestrator.observers.between import WORDS, Bores
 from orchestrator.observers.checkpoint import Checkpoint, Checkpoints, Keeper, Saver
 from orchestrator.observers.happenings import Happenings
 from orchestrator.observers.ledger import Ledger
@@ -178,7 +179,9 @@ class _TimeLoop:
         # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
         self._schedule = schedule_of(scenario, train)
         self._course, stride = course_of(scenario, train)
-        self._recorder = Recorder(system, train.nodes, self._course.steps, stride)
+        seats = train.bearings
+        bores = Bores((seat.clearance for seat in seats), (seat.width for seat in seats), start.offsets)
+        self._recorder = Recorder(system, train.nodes, self._course.steps, stride, bores)
         load = float(np.abs(start.loads).mean()) or _LEAST_LOAD
         system.set_scale(load, [seat.width for seat in train.bearings])
         self._ledger = Ledger(system) if scenario.ledger else None
@@ -264,6 +267,8 @@ class _TimeLoop:
             happened = self._happenings.happened
             ran = turned(self._schedule, recorder.times, recorder.speeds, happened)
             record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
+        if recorder.between:
+            record = record.assign_attrs(between_evaluations=recorder.between, between_how=WORDS)
         if self._revolutions is not None:
             record = with_revolutions(record, self._revolutions)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

@@ -168,8 +168,10 @@ class Stepper:
         self.counts = StepCounts()
         self.level, self._deepest = level, level + DEEPEST
 
-    def cross(self, start: float, end: float, length: float) -> None:
+    def cross(self, start: float, end: float, length: float, common: bool = True) -> None:
         """Carry the system over an interval; its length is given besides, free of rounding.
+
+        At a `common` end all bearings are evaluated.
 
         Raises
         ------
@@ -181,7 +183,7 @@ class Stepper:
             step = length / 2**self.level
             last = done + 1 == 2**self.level
             verdict = self._attempt(
-                start + done * step, end if last else start + (done + 1) * step, step, last
+                start + done * step, end if last else start + (done + 1) * step, step, last and common
             )
             done += verdict is not Verdict.TAKEN_BACK
             if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < self._deepest:
@@ -193,13 +195,13 @@ class Stepper:
                 self.level, done, easy = self.level - 1, done // 2, False
             self._jumps.grown(self.level)
 
-    def _attempt(self, time: float, end: float, step: float, last: bool) -> Verdict:
-        """Take a step, the `last` of its interval or not."""
+    def _attempt(self, time: float, end: float, step: float, common: bool) -> Verdict:
+        """Take a step, to a `common` instant or not."""
         if self._marks:
             self._system.rollback.mark()
         self._before[:] = self._system.motion
         try:
-            advance = self._advance(time, step, last)
+            advance = self._advance(time, step, common)
             sizes = self._sizes(advance)
             problem = self._problem(advance, sizes, step)
             if isinstance(problem, ToleranceMissed) and self._jumps.found(max(sizes), self.level, end):
@@ -236,10 +238,10 @@ class Stepper:
         self._system.rollback.take_back()
         self.scheme.refuse()
 
-    def _advance(self, time: float, step: float, last: bool) -> Advance:
+    def _advance(self, time: float, step: float, common: bool) -> Advance:
         """Carry the system over a step, and estimate its error."""
         system = self._system
-        advance = self.scheme.advance(system, time, step, last)
+        advance = self.scheme.advance(system, time, step, common)
         return advance._replace(of_length=error_of_step(self._before, system.motion, system.squares, step))
 
     def _sizes(self, advance: Advance) -> tuple[float, float]:

@@ -216,12 +216,20 @@ class System:
             self._turning.set()
         self.rotor_group.exchange_time += perf_counter() - start
 
-    def moved(self) -> Array:
-        """Return what the laws say that wrenches changed since the bearings stood last, (bearings, 4)."""
+    def stands_at(self) -> Array:
+        """Return the motion of each journal in its housing where its bearing stands, (bearings, 8)."""
         there = self.bearing_inputs[:, :_PER_JOURNAL]
-        if self.housings is not None:
-            there = there - self.bearing_inputs[:, _PER_JOURNAL : 2 * _PER_JOURNAL]
-        return np.matmul(self.squares, (self.motion - there).reshape(-1, 2, 4, 1)).sum(axis=1)[..., 0]
+        if self.housings is None:
+            return there
+        return there - self.bearing_inputs[:, _PER_JOURNAL : 2 * _PER_JOURNAL]
+
+    def moved(self) -> Array:
+        """Return by how much motion and velocity changed the wrenches of the laws since bearings stood last.
+
+        (bearings, 4), sizes of both added: they may cancel, and what bends does not.
+        """
+        parts = np.matmul(self.squares, (self.motion - self.stands_at()).reshape(-1, 2, 4, 1))
+        return np.asarray(np.abs(parts[..., 0]).sum(axis=1))
 
     def defect(self) -> Array:
         """Return F(q, v) - (F0 - K q - C v) at the newest state with the law that the rotor used.

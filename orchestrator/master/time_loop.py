@@ -41,6 +41,9 @@ class Course:
         Instants on which a step ends besides, in s, ascending.
     level : int
         Halvings of a macro step with which the run begins.
+    meeting : int
+        Macro steps from one instant to which all bearings come to the next, with many rates; they come to
+        events and the end besides.
     """
 
     end: float
@@ -48,6 +51,7 @@ class Course:
     tolerance: float | None = None
     events: tuple[float, ...] = ()
     level: int = 0
+    meeting: int = 1
 
     @property
     def steps(self) -> int:
@@ -57,6 +61,10 @@ class Course:
     def instant(self, k: int) -> float:
         """End of macro step k in s."""
         return self.end if k >= self.steps else k * self.step
+
+    def meets(self, k: int) -> bool:
+        """Whether all bearings come to the end of macro step k."""
+        return k % self.meeting == 0 or k >= self.steps
 
     def parts(self, k: int) -> Iterator[tuple[float, float, float]]:
         """Yield start, end and length of macro step k, from 1 on, parted at the events inside."""
@@ -159,8 +167,9 @@ def run(
                 observer.begin(stepper)
         time = course.instant(first)
         for k in range(first + 1, course.steps + 1):
+            at = course.instant(k)
             for start, end, length in course.parts(k):
-                stepper.cross(start, end, length)
+                stepper.cross(start, end, length, end != at or course.meets(k))
             watched = perf_counter()
             for observer in observers:
                 observer.record(k, time, stepper)

@@ -3,6 +3,9 @@
 Between two records nothing is lost of the extremes: the largest forces and the least
 gaps of every macro step enter the next record.  The largest values of the whole run are
 kept besides, with their instants.
+
+With many rates a record may fall between two evaluations of a bearing.  It then waits for the next one, and
+is complete when all its bearings are (`orchestrator.observers.between`).
 """
 
 from __future__ import annotations
@@ -22,31 +25,11 @@ from orchestrator.master.observer import Observer
 from orchestrator.master.start.pads import tilts
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
+from orchestrator.observers.between import Between, Bores
+from orchestrator.observers.extremes import DEFECT, EXTREMES, SIGN, STEP_ERROR, extremes_of
 
 Array = NDArray[np.float64]
 
-EXTREMES = (
-    "force_magnitude",
-    "moment_magnitude",
-    "least_gap",
-    "centre_line_gap",
-    "contact_force",
-    "contact_pressure",
-    "wiped",
-    "defect",
-    "step_error",
-)
-"""Quantities whose extremes are kept; the gaps' least, the others' largest."""
-
-_FORCE, _MOMENT, _DEFECT, _STEP_ERROR = (
-    EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect", "step_error")
-)
-_SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("wiped") + 1)
-_OUTPUTS = [
-    RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force", "contact_pressure", "wiped")
-]
-"""Bearing outputs of which the extremes in `_SCALARS` are taken."""
-_SIGN = np.array([-1.0 if name.endswith("gap") else 1.0 for name in EXTREMES])
 _KEPT = [index for name, index in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))]
 KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 """Bearing outputs in the record: all but the affine law."""
@@ -91,20 +74,23 @@ class Recorder(Observer):
         Macro steps of the run.
     stride : int
         Macro steps from one record to the next; the start and the last step are always recorded.
+    bores : Bores
+        For what bearings tell between two evaluations.
 
     Attributes
     ----------
     size : int
-        Records so far.
+        Records that are complete.
     peaks, peak_times : ndarray (bearings, 9)
         Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
     """
 
-    def __init__(self, system: System, nodes: int, steps: int, stride: int) -> None:
+    def __init__(self, system: System, nodes: int, steps: int, stride: int, bores: Bores) -> None:
         bearings, capacity = len(system.bearings), math.ceil(steps / stride) + 2
         self._system = system
         self._steps, self._stride = steps, stride
-        self.size = 0
+        self.size = self._rows = 0
+        self._between = Between(bores, len(RESPONSE) + len(DETAILS))
         self._whole = True
         self._times = np.empty(capacity)
         self._journals = np.empty((capacity, bearings, 8))
@@ -140,9 +126,14 @@ class Recorder(Observer):
         self.record(0, 0.0, stepper)
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
-        """Note the extremes of the system as it stands after a step."""
-        self._whole = advance.evaluated is None or bool(advance.evaluated.all())
+        """Note the extremes of the system as it stands after a step, and complete records that waited."""
+        done = advance.evaluated
+        self._whole = done is None or bool(done.all())
         self._note(end, advance)
+        if done is not None:
+            if int(self._between.first[done].min(initial=self._rows)) < self._rows:
+                self._fill(done, end)
+            self._between.stands[done] = end
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
         """Keep a record if one is due."""
@@ -151,23 +142,22 @@ class Recorder(Observer):
 
     def stop(self, step: int | None, time: float, stepper: Stepper) -> None:
         """Keep a record of where the run stopped, unless there is one, or some bearings stand behind."""
-        if self._whole and self.size and self._times[self.size - 1] < time and not self._system.rotor.failed:
+        if self._whole and self.size and self._times[self._rows - 1] < time and not self._system.rotor.failed:
             self._keep(time)
 
     def _note(self, time: float, advance: Advance | None) -> None:
-        now, system = self._now, self._system
-        forces = system.forces
-        np.hypot(forces[:, 0], forces[:, 1], out=now[:, _FORCE])
-        np.hypot(forces[:, 2], forces[:, 3], out=now[:, _MOMENT])
-        np.multiply(system.responses[:, _OUTPUTS], _SIGN[_SCALARS], out=now[:, _SCALARS])
+        now = self._now
+        extremes_of(self._system.responses, now)
         for column, error in (
-            (_DEFECT, advance and advance.defect),
-            (_STEP_ERROR, advance and advance.of_length),
+            (DEFECT, advance and advance.defect),
+            (STEP_ERROR, advance and advance.of_length),
         ):
             if error is None:
                 now[:, column] = 0.0
             else:
                 np.hypot(error[:, 0], error[:, 1], out=now[:, column])
+        if advance is not None and advance.evaluated is not None:
+            now[~advance.evaluated, :STEP_ERROR] = -np.inf
         np.maximum(self._since, now, out=self._since)
         higher = now > self._peaks
         if higher.any():
@@ -175,7 +165,7 @@ class Recorder(Observer):
             self.peak_times[higher] = time
 
     def _keep(self, time: float) -> None:
-        k = self.size
+        k = self._rows
         self._times[k] = time
         self._speeds[k] = self._system.speed
         self._journals[k] = self._system.journals
@@ -183,7 +173,7 @@ class Recorder(Observer):
         for block in self._detail_blocks:
             block.get()
         self._details[k] = self._details_now
-        np.multiply(self._since, _SIGN, out=self._extremes[k])
+        np.multiply(self._since, SIGN, out=self._extremes[k])
         self._since[:] = -np.inf
         self._shaft_block.get()
         self._shaft[k] = self._shaft_values[: len(SHAFT)]
@@ -192,20 +182,55 @@ class Recorder(Observer):
             self._foundation_block.get()
             self._housings[k] = self._system.housings
             self._foundation[k] = self._foundation_values
-        self.size = k + 1
+        self._rows = k + 1
+        waits = np.zeros(len(self._now), dtype=bool) if self._whole else self._between.stands < time
+        self.size = self._between.kept(k, waits, self._told, self._system.stands_at)
+
+    def _told(self) -> Array:
+        """All that bearings tell where they stand, (bearings, outputs and details)."""
+        return np.hstack([self._system.responses, self._details_now])
+
+    def _fill(self, done: NDArray[np.bool_], end: float) -> None:
+        """Complete what waits for these bearings, which stand at `end`."""
+        system, between = self._system, self._between
+        rows, bearing = between.waiting(done, self._rows)
+        for block in self._detail_blocks:
+            block.get()
+        motion = self._journals[rows, bearing]
+        if system.housings is not None:
+            motion = motion - self._housings[rows, bearing]
+        share = between.shares(bearing, self._times[rows], end)
+        values = between.at(bearing, share, motion, self._told(), system.motion)
+        self._responses[rows, bearing] = values[:, _KEPT]
+        self._details[rows, bearing] = values[:, len(RESPONSE) :]
+        extremes = self._extremes[rows, bearing] * SIGN
+        extremes[:, DEFECT] = np.maximum(extremes[:, DEFECT], 0.0)
+        extremes = np.maximum(extremes, extremes_of(values))
+        self._extremes[rows, bearing] = extremes * SIGN
+        for row, b, found in zip(rows, bearing, extremes, strict=True):
+            higher = found > self._peaks[b]
+            self._peaks[b, higher], self.peak_times[b, higher] = found[higher], self._times[row]
+        self.size = between.complete(done, self._rows)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """What was kept so far, by name; views."""
-        kept = {name: getattr(self, f"_{name}")[: self.size] for name in _KEPT_ARRAYS}
-        return kept | {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
+        kept = {name: getattr(self, f"_{name}")[: self._rows] for name in _KEPT_ARRAYS}
+        whole = {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
+        return kept | whole | {f"between.{name}": x for name, x in self._between.arrays().items()}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
-        self.size = len(arrays["times"])
+        self._rows = len(arrays["times"])
         for name in _KEPT_ARRAYS:
-            getattr(self, f"_{name}")[: self.size] = arrays[name]
+            getattr(self, f"_{name}")[: self._rows] = arrays[name]
+        self.size = self._between.restore(arrays)
         self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
         self.peak_times[:] = arrays["peak_times"]
+
+    @property
+    def between(self) -> float:
+        """Share of what bearings tell in all records that lies between two evaluations."""
+        return self._between.filled / max(1, self.size * len(self._now))
 
     @property
     def times(self) -> Array:
@@ -252,7 +277,7 @@ class Recorder(Observer):
     @property
     def peaks(self) -> Array:
         """Extremes of the whole run, (bearings, 9)."""
-        return self._peaks * _SIGN
+        return self._peaks * SIGN
 
     def shaft(self, name: str) -> Array:
         """Rotor output `name`, one of `SHAFT`, (records,)."""

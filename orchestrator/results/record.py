@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from fmus import port
 from orchestrator.master.start.equilibrium import Start
-from orchestrator.observers.recorder import EXTREMES, Recorder
+from orchestrator.observers.extremes import EXTREMES
+from orchestrator.observers.recorder import Recorder
 from orchestrator.outcome import Outcome
 from orchestrator.results.geometry import train_coordinates, train_variables
 from orchestrator.scenario.events import BladeLoss

@@ -5,12 +5,12 @@ A bearing whose wrench bends little need not be evaluated at every step of the r
 interval of its own.  What the law has missed by then is the defect, of second order in the interval.
 The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones.  The interval
 of a bearing doubles where its defect is calm and halves where it is above `OWN` of the tolerance.  It is
-evaluated early when its wrench has changed so much that the defect, which goes with the square of that
-change, is to be expected above; so nothing need be taken back for it.
+evaluated early when motion and velocity have changed its wrench so much that the defect, which goes with the
+square of that change, is to be expected above; so nothing need be taken back for it.
 
 A unit takes one ``doStep`` from where it stands to where it is evaluated, so that communication points are in
-order and no unit steps twice over a time.  At common instants, where a record, an event or a
-checkpoint may be, all bearings are evaluated.
+order and no unit steps twice over a time.  At common instants, some in a revolution and where something
+happens, all bearings are evaluated.  Records may fall in between (`orchestrator.observers.between`).
 
 Tried and left out: the mean of what the last interval missed, added to F0 in the next one (third order).
 Through contact of the turbine train it costs accuracy at equal evaluations, even where it is confined to
@@ -38,6 +38,15 @@ of the longer interval does more harm."""
 CALM = 0.2
 """Share of that within which the defect, of second order, allows twice the interval."""
 
+STIFFENS = 0.5
+"""Bend that is expected at least, that of a force as the inverse of a gap, of what bends at all."""
+
+LINEAR = 1e-3
+"""Bend of what does not bend."""
+
+FADES = 0.5
+"""Share of the bend of the interval before that is expected still: a calm interval tells little of it."""
+
 _WHOLE = 1.0 - 1e-6
 """Share of an interval that counts as the whole."""
 
@@ -55,7 +64,8 @@ class Rates(NamedTuple):
     interval : ndarray
         After which they are due, in s.
     bend : ndarray
-        Relative defect of the last interval over the square of the relative change of the wrench in it.
+        Relative defect of the last interval over the square of what moved the wrench in it, see
+        `System.moved`; at least `FADES` of that before.
     """
 
     stands: Array
@@ -64,7 +74,8 @@ class Rates(NamedTuple):
 
     def due(self, end: float, moved: Array, tolerance: float) -> Mask:
         """Which bearings are to be evaluated at `end`, their wrenches changed by `moved` (relative)."""
-        return (end - self.stands >= _WHOLE * self.interval) | (self.bend * moved**2 > tolerance)
+        bend = np.where(self.bend > LINEAR, np.maximum(self.bend, STIFFENS), self.bend)
+        return (end - self.stands >= _WHOLE * self.interval) | (bend * moved**2 > tolerance)
 
     def after(self, end: float, due: Mask, moved: Array, sizes: Array, tolerance: float) -> Rates:
         """What follows on relative defects of these sizes at `end` of the bearings that were `due`."""
@@ -72,7 +83,8 @@ class Rates(NamedTuple):
         whole = spans >= _WHOLE * self.interval
         interval = np.where(due & whole & (sizes <= CALM * tolerance), 2.0 * spans, self.interval)
         interval = np.where(due & (sizes > tolerance), np.minimum(interval, 0.5 * spans), interval)
-        bend = np.where(due, sizes / np.maximum(moved, _NOTHING) ** 2, self.bend)
+        found = np.maximum(sizes / np.maximum(moved, _NOTHING) ** 2, FADES * self.bend)
+        bend = np.where(due, found, self.bend)
         return Rates(np.where(due, end, self.stands), interval, bend)
 
 

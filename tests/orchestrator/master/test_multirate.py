@@ -7,7 +7,7 @@ from orchestrator.case.course import course_of
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
 from orchestrator.master.coupling import LinearImplicit, Multirate
-from orchestrator.master.coupling.multirate import CALM, Rates
+from orchestrator.master.coupling.multirate import CALM, LINEAR, Rates
 from orchestrator.master.stepping import Stepper
 from orchestrator.observers.ledger import Ledger
 from rotor_fmu.train.file import load_train
@@ -26,9 +26,18 @@ def rates(**given):
 
 def test_a_bearing_is_due_at_the_end_of_its_interval_or_when_its_defect_must_have_grown():
     given = rates(bend=np.array([0.0, 1.0, 1.0]))
-    moved = np.array([9.0, 0.1, 0.2])  # the last one: 0.04 is to be expected
+    moved = np.array([0.1, 0.1, 0.2])  # the last one: 0.04 is to be expected
     assert given.due(3.0, moved, 0.02).tolist() == [False, False, True]
     assert given.due(4.0, moved, 0.02).all()
+    little = rates(bend=np.array([0.0, 2.0 * LINEAR, 2.0 * LINEAR]))  # what bends a little may bend more
+    assert little.due(3.0, np.array([9.0, 0.1, 0.3]), 0.02).tolist() == [False, False, True]
+
+
+def test_what_a_bearing_is_expected_to_bend_fades():
+    after = rates(bend=np.full(3, 8.0)).after(
+        4.0, np.array([True, True, False]), np.ones(3), np.ones(3), 0.01
+    )
+    assert after.bend.tolist() == [4.0, 4.0, 8.0]
 
 
 def test_intervals_double_where_calm_halve_where_rough_and_wait_for_those_not_evaluated():

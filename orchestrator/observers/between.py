@@ -1,0 +1,181 @@
+"""What bearings tell between two of their evaluations, at instants that a coupling of many rates passes over.
+
+With s the share of the time from one evaluation to the next, held the values of the first:
+
+- wrench: the law of the first at the motion of the instant, which the rotor knows, and s^2 of what it has
+  missed at the next: a law is a tangent, so what it misses begins with the square;
+- least gaps and eccentricity: those of the motion in a round bore, and what differs from them at the two
+  evaluations, straight in between; in bores of another shape straight altogether;
+- position of the least gap: that of the nearer evaluation;
+- all else: straight between both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.master.system import RESPONSE
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Numbers = NDArray[np.intp]
+
+WORDS = (
+    "wrenches: the law of the evaluation before and the square of the share of time of what it missed at "
+    "the next; gaps from the motion; all else straight between evaluations"
+)
+"""For the record."""
+
+_ROUND = 0.05
+"""Share of the clearance by which a least gap may differ from that of a round bore and still follow it."""
+
+_FORCE, _F0, _TANGENT = slice(0, 4), slice(4, 8), slice(8, 40)
+_NEARER = RESPONSE["h_min_z"]
+
+
+class Bores:
+    """The round bores nearest to those of the bearings.
+
+    Parameters
+    ----------
+    clearances, widths : iterable of float
+        In m.
+    offsets : ndarray (bearings, 4)
+        Their centres.
+    """
+
+    def __init__(self, clearances: Iterable[float], widths: Iterable[float], offsets: Array) -> None:
+        self.clearance = np.array(list(clearances))
+        self._half, self._offsets = 0.5 * np.array(list(widths)), offsets
+
+    def gaps(self, bearing: Numbers, motion: Array) -> tuple[Array, Array]:
+        """Least gaps over these bearings' films, and in their middle, (m,) in m, of motions (m, 8)."""
+        x, y, tilt_x, tilt_y = (motion[:, :4] - self._offsets[bearing]).T
+        half, clearance = self._half[bearing], self.clearance[bearing]
+        ends = [np.hypot(x + side * half * tilt_y, y - side * half * tilt_x) for side in (-1.0, 1.0)]
+        return clearance - np.maximum(*ends), clearance - np.hypot(x, y)
+
+
+class Between:
+    """Holds what bearings told last, and what follows between then and their next evaluation.
+
+    Parameters
+    ----------
+    bores : Bores
+        For the gaps.
+    outputs : int
+        How many values bearings tell.
+
+    Attributes
+    ----------
+    stands : ndarray (bearings,)
+        When each was evaluated last, in s.
+    first : ndarray of int (bearings,)
+        Its first record that waits, else the number of records.
+    filled : int
+        Pairs of record and bearing that waited and are complete.
+    """
+
+    def __init__(self, bores: Bores, outputs: int) -> None:
+        count = len(bores.clearance)
+        self._bores = bores
+        self.stands, self.first, self.filled = np.zeros(count), np.zeros(count, dtype=np.intp), 0
+        self._values, self._motion = np.zeros((count, outputs)), np.zeros((count, 8))
+
+    def kept(self, row: int, waits: Mask, told: Callable[[], Array], motion: Callable[[], Array]) -> int:
+        """Note a record, for which some bearings wait, with what all tell and their motion where they stand.
+
+        Returns the number of records that are complete.
+        """
+        if waits.any():
+            fresh = waits & (self.first == row)
+            self._values[fresh], self._motion[fresh] = told()[fresh], motion()[fresh]
+        self.first[~waits] = row + 1
+        return int(self.first.min())
+
+    def waiting(self, chosen: Mask, rows: int) -> tuple[Numbers, Numbers]:
+        """Records up to `rows` and bearings among the chosen that wait, a pair each."""
+        begin = int(self.first[chosen].min(initial=rows))
+        row, bearing = np.nonzero((np.arange(begin, rows)[:, None] >= self.first) & chosen)
+        return row + begin, bearing
+
+    def complete(self, chosen: Mask, rows: int) -> int:
+        """Note that nothing waits for these bearings; the number of records that are complete."""
+        self.filled += int((rows - self.first[chosen]).sum())
+        self.first[chosen] = rows
+        return int(self.first.min())
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """All that it holds, by name."""
+        counts = {"first": self.first, "filled": np.array(self.filled), "stands": self.stands}
+        return {**counts, "values": self._values, "motion": self._motion}
+
+    def restore(self, arrays: Mapping[str, NDArray[Any]]) -> int:
+        """Go on from what `arrays` returned, its names behind `between.`; returns as `kept`."""
+        self.first[:], self.stands[:] = arrays["between.first"], arrays["between.stands"]
+        self._values[:], self._motion[:] = arrays["between.values"], arrays["between.motion"]
+        self.filled = int(arrays["between.filled"])
+        return int(self.first.min())
+
+    def shares(self, bearing: Numbers, times: Array, end: float) -> Array:
+        """Shares of the time from where bearings stand to `end`, (m,)."""
+        stands = self.stands[bearing]
+        return np.asarray((times - stands) / (end - stands))
+
+    def at(self, bearing: Numbers, share: Array, motion: Array, newest: Array, newest_motion: Array) -> Array:
+        """What bearings tell in between.
+
+        Parameters
+        ----------
+        bearing : ndarray of int (m,)
+            Their numbers.
+        share : ndarray (m,)
+            See `shares`.
+        motion : ndarray (m, 8)
+            q and v in their housings.
+        newest, newest_motion : ndarray (bearings, outputs), (bearings, 8)
+            What all bearings tell now, and their motion.
+
+        Returns
+        -------
+        ndarray (m, outputs)
+        """
+        before, after, s = self._values[bearing], newest[bearing], share[:, None]
+        result = before + s * (after - before)
+        missed = after[:, _FORCE] - _law(before, newest_motion[bearing])
+        result[:, _FORCE] = _law(before, motion) + s**2 * missed
+        result[:, _NEARER] = np.where(share < 0.5, before[:, _NEARER], after[:, _NEARER])
+        ways = [self._bores.gaps(bearing, x) for x in (self._motion[bearing], motion, newest_motion[bearing])]
+        over, centre = (np.array(kind) for kind in zip(*ways, strict=True))
+        clearance = self._bores.clearance[bearing]
+        least, middle = RESPONSE["h_min"], RESPONSE["h_min_centre"]
+        _follow(result, before, after, share, least, _nearer(before[:, least], over, centre), clearance)
+        _follow(result, before, after, share, middle, centre, clearance)
+        eccentricity = RESPONSE["eccentricity"]
+        _follow(result, before, after, share, eccentricity, 1.0 - centre / clearance, np.ones_like(share))
+        return result
+
+
+def _nearer(start: Array, over: Array, centre: Array) -> Array:
+    """The least gaps of a film that sees tilts or of one that does not, as it begins."""
+    return np.where(np.abs(start - over[0]) <= np.abs(start - centre[0]), over, centre)
+
+
+def _follow(
+    result: Array, before: Array, after: Array, share: Array, at: int, way: Array, size: Array
+) -> None:
+    """Let an output follow its way in a round bore, (3, m) before, in between and after, if it does there."""
+    off = before[:, at] - way[0], after[:, at] - way[2]
+    follows = np.maximum(np.abs(off[0]), np.abs(off[1])) <= _ROUND * size
+    result[:, at] = np.where(follows, way[1] + off[0] + share * (off[1] - off[0]), result[:, at])
+
+
+def _law(values: Array, motion: Array) -> Array:
+    """Wrenches of laws at motions, (m, 4)."""
+    squares = values[:, _TANGENT].reshape(-1, 2, 4, 4)
+    reaction = np.matmul(squares, motion.reshape(-1, 2, 4, 1)).sum(axis=1)[..., 0]
+    return np.asarray(values[:, _F0] - reaction)
