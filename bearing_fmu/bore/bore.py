@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.pads import Pads, pads, place_pads
 from bearing_fmu.kernels.compiled import inner_kernel, kernel
-from bearing_fmu.kernels.grid import COS, LAND, METRIC, MOTION, SIN, grade, place
+from bearing_fmu.kernels.grid import COS, LAND, METRIC, MOTION, SIN, grade, place, sharpen
 from fmus.port.bore import Arc
 
 Floats = NDArray[np.float64]
@@ -100,7 +100,8 @@ def place_rings(
     coordinates : int
         For how many of the coordinates the motion is wanted: 4, or 2 for an aligned journal.
     part : float
-        Of the usual grading of a plain bore, 1, or less where the pressure lies in the wide gap.
+        Of the usual grading of a plain bore, 1, or less where the pressure lies in the wide gap; above 1 what
+        it exceeds 1 by grades on.
     grading : ndarray, shape (7, 4)
         Work space.
     rings : ndarray, shape (2, RING_ROWS, m)
@@ -109,7 +110,9 @@ def place_rings(
     if bore is None:
         a, da = grading[0, :2], grading[1:3]
         grade(q, 1.0, a, da, grading[3:, :2])
-        if part != 1.0:
+        if part > 1.0:
+            sharpen(part - 1.0, a, da)
+        elif part != 1.0:
             a *= part
             da *= part
         for side in range(2):

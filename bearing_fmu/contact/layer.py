@@ -31,6 +31,7 @@ YIELDING = 2.0 ** (-1.0 / _SHARPNESS)
 #: Gap in roughnesses down to which Patir and Cheng (1978) give their flow factor.
 PUBLISHED = 0.5
 _FACTOR, _DECAY = 0.90, 0.56
+_OPEN = 32.0  # from here on the factor is 1 to 2e-8
 _AT = 1.0 - _FACTOR * np.exp(-_DECAY * PUBLISHED)
 _RATE = 3.0 / PUBLISHED + _DECAY * (1.0 - _AT) / _AT
 
@@ -121,5 +122,5 @@ def rough_flow(u: float) -> tuple[float, float]:
     if u < PUBLISHED:
         flow = _AT * PUBLISHED**3 * np.exp(_RATE * (u - PUBLISHED))
         return flow, _RATE * flow
-    closed = _FACTOR * np.exp(-_DECAY * u) if u < 60.0 else 0.0
+    closed = _FACTOR * np.exp(-_DECAY * u) if u < _OPEN else 0.0
     return (1.0 - closed) * u * u * u, u * u * (3.0 * (1.0 - closed) + _DECAY * closed * u)

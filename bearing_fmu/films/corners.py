@@ -29,7 +29,7 @@ _TILTED = (0.65, 0.85)
 
 
 @inner_kernel
-def _rise(x: float, ends: tuple[float, float]) -> tuple[float, float]:
+def rise(x: float, ends: tuple[float, float]) -> tuple[float, float]:
     """Smooth step from 0 to 1 between two ends, and its derivative."""
     s = (x - ends[0]) / (ends[1] - ends[0])
     if s <= 0.0:
@@ -49,8 +49,8 @@ def leaving(q: Floats, v: Floats, speed: float, change: Floats) -> float:
     u, w = 2.0 * v[0] + speed * q[1], 2.0 * v[1] - speed * q[0]
     drive = u * u + w * w
     cosine = -along / np.sqrt(drive * square)
-    away, by_cosine = _rise(cosine, _AWAY)
-    far, by_square = _rise(square, _FAR)
+    away, by_cosine = rise(cosine, _AWAY)
+    far, by_square = rise(square, _FAR)
     if away == 0.0:
         return 0.0
     scale = cosine / along
@@ -72,7 +72,7 @@ def turning_round(q: Floats, v: Floats, speed: float, change: Floats) -> float:
     if tilt <= centre:
         return 0.0
     whole = tilt + centre
-    share, slope = _rise((tilt - centre) / whole, _TILTED)
+    share, slope = rise((tilt - centre) / whole, _TILTED)
     if share > 0.0:
         by_centre, by_tilt = -4.0 * slope * tilt / (whole * whole), 4.0 * slope * centre / (whole * whole)
         change[0], change[1] = -by_centre * w * speed, by_centre * u * speed

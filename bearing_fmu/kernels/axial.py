@@ -69,6 +69,17 @@ class AxialBasis:
                     values[:, j] *= (t - node[k]) / (node[j] - node[k])
         return values
 
+    def _gauss(self, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points t of Gauss' rule, and weights of integrals over z."""
+        t, weights = np.polynomial.legendre.leggauss(count)
+        weights = weights * self.clustering / np.cosh(self.clustering * t) ** 2 / np.tanh(self.clustering)
+        return t, weights * (2.0 / weights.sum())
+
+    def gauss(self, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points z of Gauss' rule over the map, and weights of integrals over z."""
+        t, weights = self._gauss(count)
+        return self.place(t), weights
+
     def lines(self, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The basis on lines at the points of Gauss' rule, and how functions of z there are brought back.
 
@@ -80,9 +91,7 @@ class AxialBasis:
             Lagrange polynomials of the interior nodes, times the lines' weights over those of the nodes: sums
             over the lines become sums over the rows, exactly for constants.
         """
-        t, weights = np.polynomial.legendre.leggauss(count)
-        weights = weights * self.clustering / np.cosh(self.clustering * t) ** 2 / np.tanh(self.clustering)
-        weights *= 2.0 / weights.sum()
+        t, weights = self._gauss(count)
         node = np.arctanh(self.nodes[: self.rows] * np.tanh(self.clustering)) / self.clustering
         back = np.ones((count, self.rows))
         for j in range(self.rows):

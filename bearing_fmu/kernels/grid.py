@@ -78,6 +78,21 @@ def grade(q: Floats, most: float, a: Floats, da: Floats, part: Floats) -> None:
 
 
 @inner_kernel
+def sharpen(more: float, a: Floats, da: Floats) -> None:
+    """Grade more strongly: map on with the parameter ``more a``, which stays a map of the circle.
+
+    The maps of a and of b = more a in the same direction make that of (a + b) / (1 + a b).
+    """
+    square = a[0] * a[0] + a[1] * a[1]
+    below = 1.0 / (1.0 + more * square)
+    for k in range(da.shape[1]):
+        bend = 2.0 * more * below * (a[0] * da[0, k] + a[1] * da[1, k])
+        for i in range(2):
+            da[i, k] = (1.0 + more) * below * (da[i, k] - bend * a[i])
+    a *= (1.0 + more) * below
+
+
+@inner_kernel
 def place(circle: Floats, a: Floats, da: Floats, coordinates: int, ring: Floats) -> None:
     """Place a ring of points.
 

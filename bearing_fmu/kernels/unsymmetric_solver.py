@@ -124,6 +124,19 @@ def factorise_ring(
     return _invert(b, last, n, width, row)
 
 
+@inner_kernel
+def transpose_ring(b: Floats, w: Floats, y: Floats, count: int, n: int, width: int) -> None:
+    """Turn a factor into that of the transposed system: `lower` and `upper`, `w` and `y` change places."""
+    for i in range(count):
+        at = i * n * width
+        for j in range(n):
+            for k in range(j + 1, n):
+                here, there = at + j * width + k, at + k * width + j
+                b[here], b[there] = b[there], b[here]
+                w[here], w[there] = w[there], w[here]
+                y[here], y[there] = y[there], y[here]
+
+
 @kernel
 def solve_ring(
     b: Floats, lower: Floats, upper: Floats, w: Floats, y: Floats, x: Floats, row: Floats,

@@ -17,8 +17,8 @@ from bearing_fmu.films.aligned.aligned import solve_aligned
 from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
 from bearing_fmu.films.corners import SPREAD, leaving, mix
 from bearing_fmu.films.followed import film_of
-from bearing_fmu.films.tilted.depth import LAYERED
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
+from bearing_fmu.films.tilted.on_layer import LAYERED
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales

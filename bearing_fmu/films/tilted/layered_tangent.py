@@ -1,5 +1,8 @@
 """Wrench of the asperities of the layered film, and the exact tangent of film and asperities together.
 
+The asperities' force is summed on lines between the rows, on which the pressure is the axial polynomial:
+what they bear changes over a few roughnesses, along the axis within a cell.
+
 As `tangent`, with the Jacobian of `layered` in place of the symmetric system: the asperities' force depends
 on the pressure, too, through the gap, and so joins the right-hand sides of the adjoint.
 """
@@ -9,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.contact.layer import YIELDING
+from bearing_fmu.contact.asperities import REACH
+from bearing_fmu.contact.layer import YIELDING, deflection
 from bearing_fmu.contact.slice import AREA, FORCE, LOAD, PRESSURE, WIPED
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.reynolds import unfold
@@ -24,20 +28,64 @@ from bearing_fmu.films.tilted.tangent import (
 )
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
-from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring
+from bearing_fmu.kernels.unsymmetric_solver import solve_ring
 from bearing_fmu.result import STIFFNESS
 
 Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _pushes(layered: LayeredFilm, j: int, i: int, grip: float, part: Floats) -> float:
-    """Direction of the asperities' force on the journal at a node; returns the area in the film's units."""
+def _press(
+    layered: LayeredFilm, line: int, q: Floats, ambient: float, grip: float, scale: Floats, pressed: Floats,
+    contact: Floats,
+) -> bool:  # fmt: skip
+    """Add the asperities' wrench on a line; their pressure times area, its slope by the gap and direction.
+
+    Returns
+    -------
+    bool
+        Whether they touch.
+    """
     film = layered.film
-    c, s, z = film.rings[0, COS, i], film.rings[0, SIN, i], film.nodes[j]
-    part[0], part[1] = -(c - grip * s), -(s + grip * c)
-    part[2], part[3] = -z * part[1], z * part[0]
-    return film.weights[j] * 2.0 * np.pi / film.circle.shape[2] * film.rings[0, METRIC, i]
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    sigma, soft, hardness = layered.constants[1], layered.constants[2], layered.constants[3]
+    z, weight = layered.places[0, line], layered.places[1, line] * 2.0 * np.pi / m
+    ex, ey, near = q[0] + q[3] * z, q[1] - q[2] * z, REACH * sigma
+    if 1.0 - np.hypot(ex, ey) >= near:
+        return False
+    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
+    part = film.row[:4]
+    touches = False
+    for i in range(m):
+        pressed[0, i], pressed[1, i] = 0.0, 0.0
+        s = 1.0 - ex * cos[i] - ey * sin[i]
+        if s >= near:
+            continue
+        pressure = ambient
+        for j in range(n):
+            pressure += layered.lines[line, j] * film.pressures[0, j, i]
+        s += soft * max(pressure, 0.0)
+        if s >= near:
+            continue
+        touches = True
+        back, slope, _ = deflection(s / sigma, layered.constants[0], layered.table)
+        area = weight * metric[i]
+        pressed[0, i], pressed[1, i] = area * sigma * back / soft, area * slope / soft
+        part[0], part[1] = -(cos[i] - grip * sin[i]), -(sin[i] + grip * cos[i])
+        part[2], part[3] = -z * part[1], z * part[0]
+        share = sigma * back / (soft * hardness)
+        contact[LOAD] += pressed[0, i] * scale[0]
+        contact[PRESSURE] = max(contact[PRESSURE], share)
+        contact[AREA] += area * share
+        contact[WIPED] += area if share >= YIELDING else 0.0
+        for k in range(4):
+            contact[FORCE + k] += pressed[0, i] * part[k] * scale[0] * (1.0 if k < 2 else scale[1])
+            if pressure > 0.0:
+                at, push = (i * 4 + k) * width, pressed[1, i] * soft * part[k]
+                for j in range(n):
+                    film.sides[at + j] += push * layered.lines[line, j]
+    return touches
 
 
 @stage
@@ -57,61 +105,49 @@ def _touch(
         The film's and the contact's results; the tangent of both goes into that of the film.
     """
     film = layered.film
-    n, m = film.face.shape[1], film.circle.shape[2]
-    width = film.coupling.shape[0] // m
-    soft, part, change = layered.constants[2], film.row[:4], film.forcing[3, 0, :m]
+    m = film.circle.shape[2]
+    change, pressed, scale = film.forcing[3, 0, :m], film.forcing[3, 1:3], film.row[4:6]
+    scale[0], scale[1] = force, half
+    cos, sin = film.rings[0, COS], film.rings[0, SIN]
     result[STIFFNESS : STIFFNESS + 16] = 0.0
-    for j in range(n + 2):
-        for i in range(m):
-            if layered.asperities[0, j, i] > 0.0:
-                share = _pushes(layered, j, i, grip, part)
-                load = share * layered.asperities[0, j, i] * force
-                contact[LOAD] += load
-                pressed = layered.asperities[0, j, i] / layered.constants[3]
-                contact[PRESSURE] = max(contact[PRESSURE], pressed)
-                contact[AREA] += share * pressed
-                contact[WIPED] += share if pressed >= YIELDING else 0.0
-                for k in range(4):
-                    contact[FORCE + k] += load * part[k] * (1.0 if k < 2 else half)
-                    if j < n and film.pressures[0, j, i] + ambient > 0.0:
-                        at = (i * 4 + k) * width + j
-                        film.sides[at] += share * layered.asperities[1, j, i] * soft * part[k]
+    for line in range(layered.places.shape[1]):
+        if not _press(layered, line, q, ambient, grip, scale, pressed, contact):
+            continue
+        z = layered.places[0, line]
         for k in range(4):
-            gap_change(film, None, q, k, 0, film.nodes[j], change)
+            gap_change(film, None, q, k, 0, z, change)
             motion, stretching = film.rings[0, MOTION + k], film.rings[0, STRETCHING + k]
+            along, across = 0.0, 0.0
             for i in range(m):
-                pressure = layered.asperities[0, j, i]
-                if pressure > 0.0:
-                    share = _pushes(layered, j, i, grip, part)
-                    grown = share * (layered.asperities[1, j, i] * change[i] + pressure * stretching[i])
-                    turned = share * pressure * motion[i]
-                    z = film.nodes[j]
-                    result[STIFFNESS + k] += grown * part[0] - turned * part[1]
-                    result[STIFFNESS + 4 + k] += grown * part[1] + turned * part[0]
-                    result[STIFFNESS + 8 + k] += grown * part[2] - z * turned * part[0]
-                    result[STIFFNESS + 12 + k] += grown * part[3] - z * turned * part[1]
+                if pressed[0, i] > 0.0:
+                    dx, dy = -(cos[i] - grip * sin[i]), -(sin[i] + grip * cos[i])
+                    grown = pressed[1, i] * change[i] + pressed[0, i] * stretching[i]
+                    turned = pressed[0, i] * motion[i]
+                    along += grown * dx - turned * dy
+                    across += grown * dy + turned * dx
+            result[STIFFNESS + k] += along
+            result[STIFFNESS + 4 + k] += across
+            result[STIFFNESS + 8 + k] -= z * across
+            result[STIFFNESS + 12 + k] += z * along
 
 
 @stage
 def add_layered_tangent(
     layered: LayeredFilm, q: Floats, v: Floats, speed: float, ambient: float, grip: float, force: float,
     half: float, result: Floats, contact: Floats,
-) -> bool:  # fmt: skip
-    """Complete `result` of `solve_layered`, and `contact`; False where the adjoint system has no solution."""
+) -> None:  # fmt: skip
+    """Complete `result` of `solve_layered`, and `contact`."""
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
     adjoint_sides(film)
     _touch(layered, q, ambient, grip, force, half, result, contact)
-    if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
-        return False
-    solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 4)
+    solve_ring(b, layered.upper, layered.lower, y, w, film.sides, layered.work, m, n, width, 4)
     for k in range(4):
         unfold(film, k + 1, k, 4)
-    explicit = layered.asperities[2].reshape(-1)
-    for k in range(16):
-        explicit[k] = result[STIFFNESS + k]
+    explicit = layered.explicit
+    explicit[:] = result[STIFFNESS : STIFFNESS + 16]
     prepare(film, speed)
     for k in range(4):
         residual_tangent(film, None, q, v, k)
@@ -120,4 +156,3 @@ def add_layered_tangent(
         result[STIFFNESS + k] += explicit[k]
     add_grid_motion(film, result)
     damping(film, result)
-    return True

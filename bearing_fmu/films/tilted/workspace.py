@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.axial import axial_basis, end_slopes
+from bearing_fmu.kernels.axial import CLUSTERING, axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.kernels.vector import padded
 from bearing_fmu.result import FIELDS, RESULTS
@@ -84,9 +84,11 @@ STOCK = Stock(work_space)
 """Of the tilted films of this process."""
 
 
-def tilted_film(columns: int, rows: int, aspect: float, space: dict[str, Floats]) -> TiltedFilm:
+def tilted_film(
+    columns: int, rows: int, aspect: float, space: dict[str, Floats], clustering: float = CLUSTERING
+) -> TiltedFilm:
     """Prepare a film of `columns` x `rows` with 2R/b = `aspect` in a work space."""
-    basis = axial_basis(rows)
+    basis = axial_basis(rows, clustering)
     width = padded(rows)
     products = np.zeros((rows + 2, rows, width))
     products[:, :, :rows] = basis.stiffness_products()

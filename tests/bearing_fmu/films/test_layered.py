@@ -1,4 +1,4 @@
-"""V1 and V2 on a soft layer: exact tangent, convergence with the grid, bounds, and the rigid limit."""
+"""V1 and V2 on a soft layer: answers on every grid, exact tangent, an independent solution, rigid limit."""
 
 from __future__ import annotations
 
@@ -8,16 +8,27 @@ import numpy as np
 import pytest
 
 from bearing_fmu.film import make_film
-from tests.bearing_fmu.bearings import SPEED, TURBINE, respond
+from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, respond, table
+from tests.bearing_fmu.films.independent_layer import solve
 from tests.bearing_fmu.films.test_tangent import errors
 
 LAYER = replace(TURBINE, layer_thickness=5e-3)
 STATES = {
     "open": ((0.3, -0.7, 0.1, 0.05), (0.02, 0.1, 0.05, -0.02)),
+    "layer takes part": ((0.3, -0.86, 0.01, 0.02), (0.02, 0.1, 0.05, -0.02)),
     "edge in contact": ((0.2, -0.9, 0.085, 0.02), (0.01, 0.01, 0.0, 0.02)),
     "whole width in contact": ((0.1, -0.995, 0.001, 0.002), (0.01, 0.01, 0.0, 0.0)),
     "edge overlapped": ((0.2, -0.9, 0.09, 0.02), (0.01, 0.01, 0.02, 0.0)),
+    "leaves the wall": ((0.2, -0.965, 0.01, 0.02), (-0.1, 0.4, 0.02, 0.0)),
 }
+RECORDED = [
+    (
+        np.array([float(x) for x in list(row.values())[:4]]),
+        np.array([float(x) for x in list(row.values())[4:]]),
+    )
+    for row in table("contact_states.csv")
+]
+COMPARED = 6  #: of those, with little overlap
 
 pytestmark = pytest.mark.slow  # the kernel of the layer compiles for a minute
 
@@ -32,11 +43,48 @@ def test_tangent(depth, speed, state):
         assert by_velocity < 1e-6
 
 
-def test_twice_the_grid_changes_the_force_by_less_than_three_per_cent():
-    q, v = STATES["edge overlapped"]
-    finer = replace(LAYER, columns=96, rows=16)
-    coarse, fine = (respond(make_film("v1", p), q, v, SPEED) for p in (LAYER, finer))
-    np.testing.assert_allclose(coarse.wrench[:2], fine.wrench[:2], atol=0.03 * np.abs(fine.wrench[:2]).max())
+def answers(grid):
+    film = make_film("v1", replace(LAYER, columns=grid[0], rows=grid[1]))
+    return [film.respond(q, v, SPEED) for q, v in RECORDED]
+
+
+def test_recorded_states_have_an_answer_on_fine_grids_and_the_same_one():
+    """Film force, contact and friction within 5 %, largest pressure within 10 % of two doublings."""
+    finest = answers((192, 30))
+    for grid, share in (((48, 8), 1.0), ((96, 16), 0.5)):
+        for coarse, fine in list(zip(answers(grid), finest, strict=True))[:COMPARED]:
+            film, exact = (r.wrench[:2] - r.contact_wrench[:2] for r in (coarse, fine))
+            force = np.linalg.norm(exact)
+            assert np.linalg.norm(film - exact) < 0.05 * share * force
+            assert abs(coarse.contact_force - fine.contact_force) < 0.05 * share * max(
+                fine.contact_force, 0.02 * force
+            )
+            assert coarse.friction_power == pytest.approx(fine.friction_power, rel=0.05 * share)
+            assert coarse.p_max == pytest.approx(fine.p_max, rel=0.1 * share)
+
+
+@pytest.mark.parametrize("index", [2, 5])
+def test_an_independent_solution_agrees(index):
+    q, v = RECORDED[index]
+    film = make_film("v1", replace(LAYER, columns=96, rows=16)).respond(q, v, SPEED)
+    other = solve(LAYER, q, v, SPEED, (96, 32))
+    force = film.wrench[:2] - film.contact_wrench[:2]
+    np.testing.assert_allclose(force, other.film_force, atol=0.01 * np.linalg.norm(force))
+    assert film.contact_force == pytest.approx(other.contact_force, rel=0.06)
+    assert film.p_max == pytest.approx(other.p_max, rel=0.05)
+
+
+def test_the_layer_comes_in_smoothly():
+    """Over the states in which it begins to count the force has no jump and its tangent is exact."""
+    film = make_film("v1", LAYER)
+    way = np.linspace(0.80, 0.94, 71)
+    forces = np.array([respond(film, (0.1, -e, 0.02, 0.01), speed=SPEED).wrench[1] for e in way])
+    stiffness = np.array([
+        respond(film, (0.1, -e, 0.02, 0.01), speed=SPEED).stiffness[1, 1] * lever(LAYER)[1] for e in way
+    ])  # fmt: skip
+    steps = np.diff(way)
+    trapezoids = 0.5 * (stiffness[1:] + stiffness[:-1]) * steps
+    np.testing.assert_allclose(np.diff(forces), trapezoids, atol=0.02 * np.abs(np.diff(forces)).max())
 
 
 def test_pressures_are_those_of_a_yielding_metal():
@@ -48,9 +96,16 @@ def test_pressures_are_those_of_a_yielding_metal():
     assert 0.0 < soft.contact_force < rigid.contact_force
 
 
-def test_a_thin_layer_far_from_contact_is_rigid():
+def test_far_from_contact_the_bore_is_rigid_to_the_bit():
     q, v = STATES["open"]
-    thin = replace(TURBINE, layer_thickness=1e-9)
+    soft, rigid = (respond(make_film("v1", p), q, v, SPEED) for p in (LAYER, TURBINE))
+    np.testing.assert_array_equal(soft.wrench, rigid.wrench)
+    np.testing.assert_array_equal(soft.stiffness, rigid.stiffness)
+
+
+def test_a_thin_layer_in_reach_of_contact_is_nearly_rigid():
+    """It differs by the oil's flow between asperities and by its grid alone."""
+    q, v = (0.2, -0.955, 0.005, 0.01), (0.01, 0.02, 0.0, 0.0)
+    thin = replace(TURBINE, layer_thickness=1e-7)
     soft, rigid = (respond(make_film("v1", p), q, v, SPEED) for p in (thin, TURBINE))
-    np.testing.assert_allclose(soft.wrench, rigid.wrench, atol=1e-6 * np.abs(rigid.wrench).max())
-    np.testing.assert_allclose(soft.stiffness, rigid.stiffness, atol=1e-5 * np.abs(rigid.stiffness).max())
+    np.testing.assert_allclose(soft.wrench[:2], rigid.wrench[:2], atol=0.02 * np.abs(rigid.wrench).max())

@@ -1,0 +1,159 @@
+"""Search for the pressure of a film on its layer.
+
+Newton's method alone wanders where a whole region overlaps, since there almost nothing but the advection is
+left. So it follows a wall that takes time to give way (pseudo-transient continuation; Kelley and Keyes 1998,
+SIAM J. Numer. Anal. 35, 508): quickly, its rate falling with the residual (Mulder and van Leer 1985), and
+where that does not end, with a rate that keeps each step to what its linear equations say.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.films.tilted.layered import LayeredFilm, linearise
+from bearing_fmu.films.tilted.lines import SHARE
+from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
+from bearing_fmu.films.tilted.side_flow import side_flow
+from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.grid import METRIC
+from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring, transpose_ring
+from bearing_fmu.result import FLOW, GAP
+from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
+
+Floats = NDArray[np.float64]
+
+#: Of the quick search and of the careful one.
+_QUICK, _CAREFUL = 30, 200
+#: Of a step of the pressure: one more would change it by about the square of that, and one more is made.
+_PRECISION = 1e-3
+#: Roughnesses by which a step presses the wall back at most, in either search.
+_STEPS = (3.0, 30.0)
+#: Rate at which the wall gives way at first, over the flow's; what a step changes it by; where it is none.
+_RATE, _FALL, _GROWTH, _NONE = 1.0, 0.02, 2.0, 1e-2
+#: Of a careful step: misfit of its linear equations over the residual at which it is taken back, and that
+#: at which the rate stays; what the rate rises by, and from where at least, if it is taken back.
+_BACK, _WANTED, _RISE, _LEAST = 1.0, 0.25, 6.0, 0.03
+
+
+@inner_kernel
+def _resist(layered: LayeredFilm, rate: float) -> None:
+    """Let the wall take time to give way."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    scale = 4.0 * np.pi / m * rate * layered.constants[2]
+    for i in range(m):
+        for j in range(n):
+            layered.blocks[0, (i * n + j) * width + j] += scale * film.weights[j] * film.rings[0, METRIC, i]
+
+
+@inner_kernel
+def _advance(layered: LayeredFilm, ambient: float, most: float) -> float:
+    """Turn the step in `sides` into the pressure; its size, where there is a film, over the largest pressure.
+
+    A step raises the pressure by `most` only: from a closed gap the linear film would overshoot.
+    """
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    step, largest = 0.0, 0.0
+    for j in range(n):
+        for i in range(m):
+            at = i * width + j
+            before = layered.kept[at] = film.pressures[0, j, i]
+            film.sides[at] = min(before + film.sides[at], max(before, 0.0) + most)
+            after = max(film.sides[at] + ambient, 0.0)
+            step = max(step, abs(after - max(before + ambient, 0.0)))
+            largest = max(largest, after)
+    return step / largest if largest > 0.0 else 0.0
+
+
+@inner_kernel
+def _misfit(layered: LayeredFilm, rate: float) -> float:
+    """How far the residual in `sides` is from what the last step's linear equations said."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    scale, largest = 4.0 * np.pi / m * rate * layered.constants[2], 0.0
+    for j in range(n):
+        for i in range(m):
+            at = i * width + j
+            held = scale * film.weights[j] * film.rings[0, METRIC, i]
+            largest = max(largest, abs(film.sides[at] - held * (film.pressures[0, j, i] - layered.kept[at])))
+    return largest
+
+
+@inner_kernel
+def _begin(layered: LayeredFilm) -> None:
+    """Put a pressure into `sides` with which nothing overlaps."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    for j in range(n):
+        for i in range(m):
+            film.sides[i * width + j] = max(-film.column[GAP, j, i], 0.0) / layered.constants[2]
+
+
+@inner_kernel
+def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> int:
+    """Find the pressure; on return it lies in `sides`, and the factor is that of its Jacobian."""
+    film, soft = layered.film, layered.constants[2]
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
+    flow = abs(speed) + 2.0 * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3])
+    _begin(layered)
+    rate, before, found, fresh = _RATE, 0.0, False, True
+    for round_ in range(_QUICK + _CAREFUL):
+        careful = round_ >= _QUICK
+        if round_ == _QUICK:
+            _begin(layered)
+            rate, found, fresh = _RATE, False, True
+        unfold(film, 0, 0, 1)
+        residual = linearise(layered, v, speed, ambient)
+        if found:
+            rate = 0.0
+        elif careful and not fresh:
+            misfit = _misfit(layered, rate * flow) / before
+            if misfit > _BACK:
+                rate, fresh = _RISE * max(rate, _LEAST), True
+                film.sides[: m * width] = layered.kept
+                continue
+            rate *= min(max(misfit / _WANTED, _FALL), _GROWTH)
+        elif not fresh and before > 0.0:
+            rate *= min(max(residual / before, _FALL), _GROWTH)
+        before, fresh = max(residual, 1e-300), False
+        _resist(layered, rate * flow)
+        if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
+            return NO_SOLUTION
+        solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
+        most = np.inf if found else _STEPS[1 if careful else 0] * layered.constants[1] / soft
+        step = _advance(layered, ambient, most)
+        if found:
+            return OK
+        found = step < _PRECISION and rate <= _NONE
+    return NOT_CONVERGED
+
+
+@stage
+def solve_layered(
+    layered: LayeredFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, part: float,
+    result: Floats,
+) -> int:  # fmt: skip
+    """Solve for the pressure; otherwise as `reynolds.solve_pressure`.
+
+    On return the factor is that of the transposed system, for the adjoint.
+    """
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    shape_gap(film, None, q, sigma, part)
+    film.mixed[SHARE] = 0.0
+    status = _search(layered, v, speed, ambient)
+    if status == OK:
+        unfold(film, 0, 0, 1)
+        transpose_ring(layered.blocks[0], layered.blocks[1], layered.blocks[2], m, n, width)
+        integrate(film, None, ambient, result)
+        result[FLOW] = side_flow(film, None, q, v, speed, sigma)
+    return status
