@@ -29,6 +29,7 @@ from scipy.linalg import lapack
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
+from rotor_fmu.vibration.trail import Extrapolation, Trail
 
 Array = NDArray[np.float64]
 
@@ -101,7 +102,8 @@ class AffineStep:
         rotation: Array,
         kick: Array | None,
         static: Equilibrium[np.float64],
-    ) -> tuple[Array, Array | None]:
+        beyond: Extrapolation | None = None,
+    ) -> tuple[Array, Array | None, Trail | None]:
         """Take a step under the law last set.
 
         Parameters
@@ -120,6 +122,8 @@ class AffineStep:
             What a force acting during a part of the step only adds to the motion at the end.
         static : Equilibrium
             The static equilibrium.
+        beyond : Extrapolation, optional
+            Of journals without mass.
 
         Returns
         -------
@@ -127,6 +131,8 @@ class AffineStep:
             At the end.
         nearer : ndarray, (4 n_b,), or None
             c / 2 of each wrench component, for `held`; None where all ran linearly.
+        trail : Trail or None
+            Of the extrapolation, if there is one.
 
         Raises
         ------
@@ -145,7 +151,13 @@ class AffineStep:
             compliance = maps.compliance.end + nearer * (maps.compliance.start - maps.compliance.end)
         if kick is not None:
             end += kick
-        wrench = offset - self._react(journal_motion(coordinates, end, static))
+        journals = journal_motion(coordinates, end, static)
+        share = 1.0 if nearer is None else 1.0 - 2.0 * nearer
+        if beyond is not None:
+            journals[:, 4:] += beyond.trail(-share * start).lead.reshape(-1, 4)
+            compliance = compliance.copy()
+            compliance[:, 4:] += beyond.compliance(share).reshape(compliance[:, 4:].shape)
+        wrench = offset - self._react(journals)
         np.matmul(self._law, compliance, out=self._matrix)
         self._diagonal += 1.0
         # The matrix is stored by rows, LAPACK reads columns: factor the transpose, solve transposed.
@@ -161,7 +173,7 @@ class AffineStep:
             raise NoFiniteResult(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
-        return end, nearer
+        return end, nearer, None if beyond is None else beyond.trail(share * (wrench - start))
 
     def _share(self, compliance: Compliance) -> Array | None:
         """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
@@ -176,8 +188,12 @@ class AffineStep:
         return self._reaction.reshape(-1)
 
 
-def journal_motion(coordinates: Coordinates, motion: Array, static: Equilibrium[np.float64]) -> Array:
+def journal_motion(
+    coordinates: Coordinates, motion: Array, static: Equilibrium[np.float64], trail: Trail | None = None
+) -> Array:
     """Journal displacements and velocities (q, v) of a motion about an equilibrium, (n_b, 8)."""
     y = coordinates.journals(motion).reshape(-1, 8)
     y[:, :4] += static.journals.reshape(-1, 4)
+    if trail is not None:
+        y[:, 4:] += trail.lead.reshape(-1, 4)
     return y

@@ -184,7 +184,7 @@ class RotorMotion:
                 "shaft come out in other vectors; go on there, or start anew"
             )
         self._state, self._modal, self._seen = state, None, None
-        self._journals = journal_motion(coordinates, state.motion, state.static)
+        self._journals = journal_motion(coordinates, state.motion, state.static, state.trail)
 
     def _angle_at(self, time: float) -> float:
         return math.fmod(self._speed * time, 2.0 * math.pi)

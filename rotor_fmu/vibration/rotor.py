@@ -16,6 +16,7 @@ from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.spin import Spin
 from rotor_fmu.vibration.state import RotorState
+from rotor_fmu.vibration.trail import Extrapolation
 from rotor_fmu.vibration.turning import DetunedMaps, Turning
 from rotor_fmu.vibration.unbalance import Unbalance, losses_of
 from rotor_fmu.vibration.work import Work, WorkLedger
@@ -182,8 +183,9 @@ class Rotor(RotorMotion):
         coordinates, maps, rotation, kick = self._at(turning, t)
         self._stepper.set_law(K, C)
         state, journals, motion = self._state, self._journals, self._motion_in(coordinates)
-        end, nearer = self._stepper.advance(
-            coordinates, maps, motion, journals, F0, rotation, kick, state.static
+        beyond = None if self.shaft.massless is None else Extrapolation(self.shaft, state.trail, H)
+        end, nearer, trail = self._stepper.advance(
+            coordinates, maps, motion, journals, F0, rotation, kick, state.static, beyond
         )
         self.holds_mean = nearer is not None
         work, owed, given = state.work, 0.0, 0.0
@@ -194,7 +196,7 @@ class Rotor(RotorMotion):
             given = self._spin.work(t, turning, (self.seen(), seen))
             given += H * maps.power if isinstance(maps, DetunedMaps) else 0.0
         if self._ledger is not None:
-            after = journal_motion(coordinates, end, state.static)
+            after = journal_motion(coordinates, end, state.static, trail)
             held = self._stepper.held(nearer, F0, journals, after, state.static)
             before = self.modal_state()
             if turning.start == turning.end:
@@ -210,7 +212,7 @@ class Rotor(RotorMotion):
             owed = self._spin.account(turning, ends, now, state.owed, given).owed
         turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
         where = coordinates.speed, coordinates.basis
-        self.set_state(RotorState(end, turned, state.static, *where, work, speed, owed, t + H))
+        self.set_state(RotorState(end, turned, state.static, *where, work, speed, owed, t + H, trail))
         self._seen = seen
 
     def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:

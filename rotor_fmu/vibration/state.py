@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
+from rotor_fmu.vibration.trail import Trail
 from rotor_fmu.vibration.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s3q11d16s")
-_MAGIC = b"rotor\0\0\5"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s4q12d16s")
+_MAGIC = b"rotor\0\0\6"  # the last byte is the version of the layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +43,8 @@ class RotorState:
         Energy that a free rotation is still to gain [J], see `rotor_fmu.vibration.spin`.
     time : float
         Instant [s].
+    trail : Trail or None
+        Of the step before, where there are journals without mass.
     """
 
     motion: Array
@@ -53,16 +56,26 @@ class RotorState:
     turning: float | None = None
     owed: float = 0.0
     time: float = 0.0
+    trail: Trail | None = None
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
-        static = self.static
-        sizes = (len(self.motion), len(static.shape), len(static.wrench))
+        static, trail = self.static, self.trail
+        behind = (trail.slope, trail.lead) if trail is not None else ()
+        sizes = (len(self.motion), len(static.shape), len(static.wrench), len(behind))
         speeds = (math.nan if speed is None else speed for speed in (self.speed, self.turning))
         header = _HEADER.pack(
-            _MAGIC, *sizes, self.angle, *speeds, self.owed, self.time, *self.work, self.basis
+            _MAGIC,
+            *sizes,
+            self.angle,
+            *speeds,
+            self.owed,
+            self.time,
+            trail.step if trail is not None else 0.0,
+            *self.work,
+            self.basis,
         )
-        arrays = (self.motion, static.shape, static.journals, static.wrench)
+        arrays = (self.motion, static.shape, static.journals, static.wrench, *behind)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
     @classmethod
@@ -76,12 +89,16 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, angle, *numbers, basis = _HEADER.unpack_from(data)
-        sizes = (states, displacements, loads, loads)
+        _, states, displacements, loads, behind, angle, *numbers, basis = _HEADER.unpack_from(data)
+        if behind not in (0, 2):
+            raise ValueError(f"rotor state: {behind} arrays of a step before; allowed are 0 and 2")
+        sizes = (states, displacements, loads, loads, *[loads] * behind)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
         values = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
-        motion, shape, journals, wrench = np.split(values, np.cumsum(sizes)[:-1])
+        motion, shape, journals, wrench, *trail = np.split(values, np.cumsum(sizes)[:-1])
         speed, turning = (None if math.isnan(speed) else speed for speed in numbers[:2])
         static = Equilibrium(shape, journals, wrench)
-        return cls(motion, angle, static, speed, basis, Work(*numbers[4:]), turning, *numbers[2:4])
+        work, last = Work(*numbers[5:]), Trail(trail[0], trail[1], numbers[4]) if trail else None
+        owed, time = numbers[2:4]
+        return cls(motion, angle, static, speed, basis, work, turning, owed, time, last)
