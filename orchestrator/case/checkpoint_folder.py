@@ -21,6 +21,7 @@ from orchestrator.observers.checkpoint import (
 )
 from orchestrator.observers.checkpoint_meta import problem_of
 from orchestrator.results.folder import ResultFolderError, check_writable
+from orchestrator.results.record_files import blocks_in
 
 SUFFIX = "-checkpoint"
 
@@ -106,7 +107,7 @@ def discard(folder: Path) -> None:
     """Remove the checkpoint of a run that is finished, and its folder unless something else is in it."""
     place = checkpoint_folder(folder)
     with suppress(OSError):
-        for path in (place / FILE, *half_written(place)):
+        for path in (place / FILE, *half_written(place), *blocks_in(place)):
             path.unlink(missing_ok=True)
         place.rmdir()
 

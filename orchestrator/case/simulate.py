@@ -15,6 +15,7 @@ from bearing_fmu import depths
 from orchestrator.case.case import Case, folder_case
 from orchestrator.case.course import course_of
 from orchestrator.case.progress import Progress, Stage
+from orchestrator.case.record_so_far import RecordSoFar
 from orchestrator.errors import EquilibriumError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.fmi.unit import UnitError
@@ -26,6 +27,7 @@ from orchestrator.master.observer import Observer
 from orchestrator.master.start.equilibrium import Start, begin
 from orchestrator.master.start.heat import as_it_runs
 from orchestrator.master.start.journal_position import evaluate
+from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import RunEnd, run
 from orchestrator.observers.between import WORDS, Bores
@@ -208,12 +210,23 @@ class _TimeLoop:
         """Carry it to its end."""
         scenario, system, watchdog = self._case.scenario, self._system, execution.watchdog
         resume, observers = execution.resume, list(self._observers)
-        if execution.checkpoints is not None:
-            observers.append(Saver(execution.checkpoints, system, self._start, self._keepers))
+        checkpoints, so_far = execution.checkpoints, None
+        if checkpoints is not None:
+            kept = self._recorder, self._revolutions
+            so_far = RecordSoFar(checkpoints.folder, *kept, self._so_far, checkpoints.warn)
+            checkpoints.beside = so_far.write
+            observers.append(Saver(checkpoints, system, self._start, self._keepers))
 
         def on_time(time: float) -> None:
             watchdog.beat(time)
             announce(Stage.RUN, time)
+
+        def go_on(stepper: Stepper) -> int:
+            assert resume is not None
+            step = resume.restore_run(stepper, self._keepers, self._course)
+            if so_far is not None:
+                so_far.go_on()
+            return step
 
         watchdog.partial, watchdog.patience = self._hung, 1.0
         before = [(group.step_time, group.exchange_time) for group in system.groups]
@@ -223,9 +236,7 @@ class _TimeLoop:
             observers,
             self._course,
             on_time=on_time,
-            resume=None
-            if resume is None
-            else lambda stepper: resume.restore_run(stepper, self._keepers, self._course),
+            resume=None if resume is None else go_on,
         )
         spent = [
             (group.step_time - step, group.exchange_time - exchange)
@@ -240,7 +251,7 @@ class _TimeLoop:
         rest = end.wall_time - film - rotor - fmi - end.record_time
         timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
-        record = self._record(self._recorder, outcome, message)
+        record = self._record(self._recorder, outcome, message, self._revolutions)
         if outcome.ok:
             outcome, message = judge(record, self._case.train)
             record = record.assign_attrs(outcome_attributes(outcome, message))
@@ -253,11 +264,17 @@ class _TimeLoop:
     def _hung(self, message: str) -> Result:
         """Make the result of a loop that hangs in a unit."""
         kept = copy(self._recorder)  # its size stays as it is, whatever the time loop does
-        record = self._record(kept, Outcome.UNIT_HUNG, message)
+        record = self._record(kept, Outcome.UNIT_HUNG, message, self._revolutions)
         evaluations = self._system.bearing_group.evaluations
         return Result(record, Outcome.UNIT_HUNG, message, self._timing, 0, evaluations)
 
-    def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
+    def _so_far(self, recorder: Recorder, revolutions: Revolutions | None) -> xr.Dataset:
+        """The record of some rows, while the run goes on."""
+        return self._record(recorder, Outcome.INTERRUPTED, "", revolutions)
+
+    def _record(
+        self, recorder: Recorder, outcome: Outcome, message: str, revolutions: Revolutions | None
+    ) -> xr.Dataset:
         case = self._case
         record = make_record(
             recorder, self._start, case.scenario, self._train, outcome, message, self._provenance
@@ -265,10 +282,10 @@ class _TimeLoop:
         record = record.assign_attrs(self._least_damped)
         if case.scenario.turns:
             happened = self._happenings.happened
-            ran = turned(self._schedule, recorder.times, recorder.speeds, happened)
+            ran = turned(self._schedule, self._recorder.times, self._recorder.speeds, happened)
             record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
         if recorder.between:
             record = record.assign_attrs(between_evaluations=recorder.between, between_how=WORDS)
-        if self._revolutions is not None:
-            record = with_revolutions(record, self._revolutions)
+        if revolutions is not None:
+            record = with_revolutions(record, revolutions)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

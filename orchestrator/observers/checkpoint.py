@@ -124,7 +124,7 @@ class Checkpoint:
         system.graph.outputs[:] = self.arrays["outputs"]
 
     def restore_run(self, stepper: Stepper, keepers: Mapping[str, Keeper], course: Course) -> int:
-        """Put step control and what watches the run where they were; return the number of the macro step."""
+        """Put step control and what watches the run where they were; return the macro step."""
         with self._fitting():
             reached = min(self.meta["step"] * course.step, course.end)
             if self.meta["step"] > course.steps or abs(self.time - reached) > 1e-6 * course.step:
@@ -145,20 +145,21 @@ class Checkpoints:
 
     Attributes
     ----------
-    folder : Path
-        Where the file lies.
-    every : float
-        Simulated time from one to the next in s.
+    folder, every : Path, float
+        Where the file lies, and simulated time from one to the next in s.
     about : mapping
         Kept with it, see `Checkpoint.about`.
     warn : callable
         Told of a checkpoint that could not be written.
+    beside : callable
+        Writes what else is due then, before the checkpoint.
     """
 
     folder: Path
     every: float
     about: Mapping[str, Any]
     warn: Callable[[str], None] = print
+    beside: Callable[[], None] = lambda: None
     _last: float = float("-inf")
 
     def save(
@@ -203,6 +204,7 @@ class Checkpoints:
         for keeper, watching in keepers.items():
             arrays |= {f"{keeper}.{name}": value for name, value in watching.arrays().items()}
         path = self.folder / FILE
+        self.beside()
         try:
             write(path, meta, arrays)
         except OSError as error:

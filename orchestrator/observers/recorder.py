@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -226,6 +227,14 @@ class Recorder(Observer):
         self.size = self._between.restore(arrays)
         self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
         self.peak_times[:] = arrays["peak_times"]
+
+    def since(self, row: int) -> Recorder:
+        """The records from a row on, to be read; views."""
+        part = copy(self)
+        for name in _KEPT_ARRAYS:
+            setattr(part, f"_{name}", getattr(self, f"_{name}")[row : self.size])
+        part.size = self.size - row
+        return part
 
     @property
     def between(self) -> float:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -145,6 +146,14 @@ class Revolutions(Observer):
         for name in _GOING_ON:
             getattr(self, f"_{name}")[:] = arrays[name]
         self._angle, self._began = arrays["turn"].tolist()
+
+    def since(self, row: int) -> Revolutions:
+        """The revolutions from a row on, to be read; views."""
+        part = copy(self)
+        for name in _KEPT:
+            setattr(part, f"_{name}", getattr(self, f"_{name}")[row : self.size])
+        part.size = self.size - row
+        return part
 
     @property
     def times(self) -> Array:

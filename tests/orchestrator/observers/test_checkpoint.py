@@ -11,13 +11,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from orchestrator.case import record_so_far
 from orchestrator.case.checkpoint_folder import checkpoint_folder, discard
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome
-from orchestrator.results.record_files import read_record
+from orchestrator.report.source import load_results
+from orchestrator.results.record_files import block_name, read_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
@@ -70,13 +72,59 @@ def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_p
     assert result.counts == whole.counts
 
 
+def test_the_record_is_written_as_it_goes(toy, tmp_path):
+    """Killed twice, gone on with once: the files are the record up to there, and go on to be it."""
+    scenario = toy_scenario(tmp_path, event=BLADE, record={"interval": 3e-3, "revolutions": True}, end=0.1)
+    whole = simulate(scenario, toy).record
+    folder = tmp_path / "saved"
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.053), Execution(Checkpoints(folder, 2e-2, {})))
+    (folder / block_name(90)).write_bytes((folder / block_name(0)).read_bytes())  # of another run
+    saved = checkpoint.read(folder)
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.088), Execution(Checkpoints(folder, 2e-2, {}), saved))
+    found = read_record(folder)
+    assert found.attrs["status"] == "running"
+    assert (found.sizes["time"], found.sizes["revolution"]) == (28, 1)
+    before = whole.isel(time=slice(28), revolution=slice(1))
+    for name in set(whole.variables) - {name for name in whole.variables if "of_run" in name}:
+        assert found[name].dims == whole[name].dims
+        np.testing.assert_array_equal(found[name].values, before[name].values, err_msg=name)
+    (source,) = load_results([folder])
+    assert source.record.sizes["time"] == 28
+
+
+@fault(
+    "machine",
+    "a full disk while the record is written as it goes",
+    "the run goes on, says so, and the next file has the instants",
+    guard="orchestrator.case.record_so_far:RecordSoFar.write",
+)
+def test_a_file_that_cannot_be_written_is_made_up_for(toy, tmp_path, monkeypatch):
+    scenario, folder, told = toy_scenario(tmp_path, event=BLADE), tmp_path / "saved", []
+    made, failing = record_so_far.block, iter([False, True])
+
+    def block(data):
+        if next(failing, False):
+            raise OSError("disk full")
+        return made(data)
+
+    monkeypatch.setattr(record_so_far, "block", block)
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.0141), Execution(Checkpoints(folder, 4e-3, {}, told.append)))
+    assert len(told) == 1
+    assert "disk full" in told[0]
+    np.testing.assert_allclose(read_record(folder)["time"], 1e-3 * np.arange(13), atol=1e-12)
+
+
 def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
     scenario = toy_scenario(tmp_path, event=BLADE)
     with pytest.raises(Killed):
         simulate(scenario, toy, killed_at(0.0), Execution(Checkpoints(tmp_path / "saved", 1.0, {"a": 1})))
     saved = checkpoint.read(tmp_path / "saved")
     assert (saved.time, saved.about) == (0.0, {"a": 1})
-    assert [path.name for path in (tmp_path / "saved").iterdir()] == [checkpoint.FILE]
+    names = [path.name for path in sorted((tmp_path / "saved").iterdir())]
+    assert names == [checkpoint.FILE, block_name(0)]
     result = simulate(scenario, toy, None, Execution(None, saved))
     assert result.record.identical(simulate(scenario, toy).record)
 
