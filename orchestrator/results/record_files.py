@@ -7,6 +7,7 @@ import uuid
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import h5netcdf
 import numpy as np
@@ -88,7 +89,8 @@ def block(data: xr.Dataset) -> bytes:
         "variables": {name: [x.dims, x.attrs] for name, x in variables.items()},
     }
     content = BytesIO()
-    np.savez(content, **{"": json.dumps(words)}, **{name: x.values for name, x in variables.items()})
+    arrays: dict[str, Any] = {"": json.dumps(words), **{name: x.values for name, x in variables.items()}}
+    np.savez(content, **arrays)
     return content.getvalue()
 
 
