@@ -284,8 +284,8 @@ class _TimeLoop:
             happened = self._happenings.happened
             ran = turned(self._schedule, self._recorder.times, self._recorder.speeds, happened)
             record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
-        if recorder.between:
-            record = record.assign_attrs(between_evaluations=recorder.between, between_how=WORDS)
+        if self._recorder.between:
+            record = record.assign_attrs(between_evaluations=self._recorder.between, between_how=WORDS)
         if revolutions is not None:
             record = with_revolutions(record, revolutions)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

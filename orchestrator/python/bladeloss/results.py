@@ -16,7 +16,7 @@ Run = xr.Dataset | str | Path
 
 
 def load(result: str | Path) -> xr.Dataset:
-    """The record of a run, from its folder or its ``record.nc``; from a checkpoint's folder, the record so far.
+    """The record of a run, from its folder or ``record.nc``; of a checkpoint's folder, the record so far.
 
     Raises
     ------
