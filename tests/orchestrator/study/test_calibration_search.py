@@ -12,8 +12,10 @@ from orchestrator.scenario.scenario import Scenario
 from orchestrator.study.paper.calibration import explore
 from orchestrator.study.paper.calibration.explore import RANGES, Range, sample
 from orchestrator.study.paper.calibration.fracture import Blade, Means, figures, rows_met
+from orchestrator.study.paper.calibration.search import design_value
 from orchestrator.study.paper.calibration.statics import settled
 from rotor_fmu.shaft.statics import target_loads
+from rotor_fmu.train.turbine_designs import SUBHARMONIC
 from rotor_fmu.train.turbine_geometry import JournalDesign, TurbineDesign, turbine_train
 from tests.orchestrator.study.paper_runs import runs
 
@@ -127,3 +129,9 @@ def test_a_design_that_cannot_stand_is_noted(tmp_path, monkeypatch):
 )
 def test_which_designs_are_worth_all_depths(so, contact, force, worth):
     assert explore.promising({"v1.so": so, "v1.contact": contact, "v1.force": force}) is worth
+
+
+def test_the_subharmonic_design_stands_as_solved_for():
+    found = settled(SUBHARMONIC)
+    for name in explore.SOLVED:
+        assert design_value(SUBHARMONIC, name) == pytest.approx(design_value(found, name), rel=2e-3)

@@ -110,6 +110,9 @@ def test_the_mechanisms_are_told_with_the_figures_of_the_run():
     for depth in ("v2", "v3"):
         found = spoiled(found, depth, "after", force_max=11e6)
     assert "the blade's 4.30 MN pass through the bearings" in rows(found)[11].reason
+    for depth in ("v2", "v3"):
+        found = spoiled(found, depth, "after", force_max=6.1e6)
+    assert "V1 on an answer at half the speed" in rows(found)[11].reason
     assert "rear end" in rows(spoiled(runs(), "v1", "after", ends=(0.0, 1.0)))[9].reason
     assert "first swing" in rows(spoiled(runs(), "v2", "after", amplitude_max=3e-3))[13].reason
 
@@ -227,6 +230,7 @@ def test_the_paper_speaks_of_its_own_train_blade_and_bearing_only():
         {"unbalance": {"grade": 6.3e-3}},
     ):
         assert not speaks_of(with_overrides(own, other), all_depths)
+    assert speaks_of(load_scenario("subharmonic"), all_depths)
     assert not speaks_of(load_scenario("small"), all_depths)
 
 

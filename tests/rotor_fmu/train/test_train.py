@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from rotor_fmu.train import turbine_designs
 from rotor_fmu.train.file import DATA, bundled_trains, load_train
 from rotor_fmu.train.train import Train
+from rotor_fmu.train.turbine_designs import DESIGNS
 from rotor_fmu.train.turbine_geometry import TurbineDesign, turbine_train
 from rotor_fmu.train.writer import shaft_csv, train_toml, write_train
 
@@ -45,6 +47,13 @@ def test_committed_turbine_is_what_its_geometry_draws(turbine):
     folder = DATA / "turbine"
     assert (folder / "shaft.csv").read_text(encoding="utf-8") == shaft_csv(drawn)
     assert (folder / "train.toml").read_text(encoding="utf-8") == train_toml(drawn)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_committed_designs_are_what_their_geometry_draws(name):
+    assert load_train(f"turbine/{name}") == turbine_designs.drawn(name)
+    for file, text in turbine_designs.files(name).items():
+        assert (DATA / "turbine" / file).read_text(encoding="utf-8") == text
 
 
 class TestTheTurbine:
