@@ -21,7 +21,7 @@ SUBHARMONIC = TurbineDesign(
     lp_balance=0.85,
     rayleigh_alpha=1.3,
 )
-"""With the blade of the scenario of that name V1 answers at half the speed, V2 and V3 do not."""
+"""With the blade of the scenario of that name V1 answers at half the speed, V2 less and V3 hardly."""
 DESIGNS = {"subharmonic": SUBHARMONIC}
 
 

@@ -112,7 +112,7 @@ def test_the_mechanisms_are_told_with_the_figures_of_the_run():
     assert "the blade's 4.30 MN pass through the bearings" in rows(found)[11].reason
     for depth in ("v2", "v3"):
         found = spoiled(found, depth, "after", force_max=6.1e6)
-    assert "V1 on an answer at half the speed" in rows(found)[11].reason
+    assert "V1's answer at half the speed" in rows(found)[11].reason
     assert "rear end" in rows(spoiled(runs(), "v1", "after", ends=(0.0, 1.0)))[9].reason
     assert "first swing" in rows(spoiled(runs(), "v2", "after", amplitude_max=3e-3))[13].reason
 
