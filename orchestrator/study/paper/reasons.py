@@ -25,8 +25,9 @@ def reason(row: Row, found: Comparison) -> str:
     if row.number == 12 and max(item.value for item in row.requirements) < published.FORCE_RATIO.value:
         if min(item.value for item in row.requirements) > _RAISED:
             return (
-                "edge contact raises V1's answer at half the speed, of which V2 has less and V3 next to nothing, "
-                f"but the kick of the fracture alone brings them to half of its force; {CALIBRATION}"
+                "edge contact raises V1's answer at half the speed, of which V2 has less and V3 next to "
+                "nothing, but the kick of the fracture alone brings them to half of its force; "
+                f"{CALIBRATION}"
             )
         return (
             f"rotor inertia imposes the force: the blade's {shown(found.blade_force, FORCE)} pass through "
