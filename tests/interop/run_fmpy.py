@@ -34,8 +34,14 @@ def main(ssp: str, step: float, end: float, out: str) -> None:
         units[component.name] = unit
         references[component.name] = {v.name: v.valueReference for v in description.modelVariables}
         for binding in component.parameterBindings:
-            values = {p.name: float(p.value) for p in read_ssv(ssp, binding.source).parameters}
-            unit.setReal([references[component.name][name] for name in values], list(values.values()))
+            given = read_ssv(ssp, binding.source).parameters
+            words = {v.name for v in description.modelVariables if v.type == "String"}
+            texts = {p.name: str(p.value) for p in given if p.name in words}
+            values = {p.name: float(p.value) for p in given if p.name not in words}
+            known = references[component.name]
+            unit.setReal([known[name] for name in values], list(values.values()))
+            if texts:
+                unit.setString([known[name] for name in texts], list(texts.values()))
         unit.setupExperiment(startTime=0.0)
         unit.enterInitializationMode()
     into = {name: [] for name in units}
