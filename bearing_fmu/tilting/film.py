@@ -152,7 +152,8 @@ class TiltingFilm(Film):
     ) -> tuple[int, Floats]:
         """Bring all pads in balance and add up what they give; `rate` is 2/dt, or 0 at rest."""
         shape = len(self.pads), 2, 2
-        then, now = state.reshape(shape) if state.size else np.zeros(shape), np.zeros(shape)
+        # a copy, since to numba a state that was read from bytes and cannot be written is of another type
+        then, now = np.array(state).reshape(shape) if state.size else np.zeros(shape), np.zeros(shape)
         space, data = self._one.take()
         try:
             status = self._evaluate(data, inputs, offset, then, rate, now, out[:OUTPUTS])

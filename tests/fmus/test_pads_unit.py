@@ -35,7 +35,7 @@ def go(unit, first: int, last: int) -> list[list[float]]:
     return found
 
 
-@pytest.mark.parametrize("depth", ["v2", "v1"])
+@pytest.mark.parametrize("depth", ["v2", pytest.param("v1", marks=pytest.mark.slow)])
 def test_pads_go_with_the_unit(hosts, depth):
     one, other = (hosts[f"bearing_{depth}.fmu"].open(name) for name in ("one", "other"))
     for unit in (one, other):

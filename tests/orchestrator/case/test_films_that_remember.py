@@ -1,4 +1,4 @@
-"""Films with memory through a run: resumed, on two threads and in every coupling, the same record."""
+"""Tilting pads through a run: resumed, on two threads and in every coupling, the same record."""
 
 from __future__ import annotations
 
@@ -14,18 +14,16 @@ from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import Checkpoints
 from orchestrator.scenario.file import load_scenario, train_of
 
-pytestmark = pytest.mark.slow  # five runs each, on kernels that only few tests need
-EXAMPLES = Path(__file__).parents[2] / "examples"
+pytestmark = pytest.mark.slow  # five runs
+EXAMPLE = Path(__file__).parents[2] / "examples" / "tilting" / "loss.toml"
 SHORT = {
+    "depth": "v2",
+    "tolerance": 1e-3,  # so steps are taken back
     "end": 8e-3,
     "event": {"time": 2.03e-3},
     "record": {"interval": 1e-4},
     "film": {"columns": 32, "rows": 4},
 }
-FILMS = [
-    pytest.param("tilting", {"depth": "v2"}, id="tilting pads"),
-    pytest.param("lemon", {"depth": "v1", "boundary": "jfo"}, id="jfo"),
-]
 
 
 class Killed(BaseException):
@@ -37,16 +35,13 @@ def killed(stage, simulated):
         raise Killed
 
 
-def scenario_of(example, film, **changes):
-    given = dict(film)
-    settings = SHORT["film"] | ({"boundary": given.pop("boundary")} if "boundary" in given else {})
-    return load_scenario(str(EXAMPLES / example / "loss.toml"), SHORT | given | {"film": settings} | changes)
+def scenario_of(**changes):
+    return load_scenario(str(EXAMPLE), SHORT | changes)
 
 
-@pytest.mark.parametrize(("example", "film"), FILMS)
-def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
-    scenario = scenario_of(example, film, tolerance=1e-3)  # so steps are taken back
-    build(tmp_path, [train_of(scenario)], [film["depth"]])
+def test_the_record_is_the_same_however_it_came_about(tmp_path):
+    scenario = scenario_of()
+    build(tmp_path, [train_of(scenario)], ["v2"])
     whole = simulate(scenario, tmp_path, None, Execution(threads=1))
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
@@ -59,6 +54,6 @@ def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
     assert again.record.identical(whole.record)
     scale = np.abs(whole.record["force"].values).max()
     for coupling in ("newton", "multirate"):
-        other = simulate(scenario_of(example, film, coupling=coupling, tolerance=1e-3), tmp_path)
+        other = simulate(scenario_of(coupling=coupling), tmp_path)
         assert other.outcome.ok, other.message
         assert np.abs(other.record["force"].values - whole.record["force"].values).max() < 0.02 * scale
