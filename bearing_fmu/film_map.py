@@ -1,7 +1,7 @@
 """The film of one bearing at one instant as a picture: pressure and gap over the unwrapped bearing.
 
-What a film leaves in its work space after an evaluation is read; nothing is solved anew.  Of tilting pads
-each has its film.
+What a film leaves in its work space after an evaluation is read; nothing is solved anew.  Films with memory
+are led along the samples before that instant; of tilting pads each has its film.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from bearing_fmu import depths
 from bearing_fmu.film import Film
 from bearing_fmu.films.aligned.workspace import AlignedFilm
+from bearing_fmu.films.jfo.film import ConservingFilm
+from bearing_fmu.films.jfo.workspace import JfoFilm
 from bearing_fmu.films.short.short import effective_state
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.workspace import TiltedFilm
@@ -30,6 +32,9 @@ from fmus.port.bore import TURN
 from fmus.port.variable import Value
 
 Floats = NDArray[np.float64]
+
+_DRAWN = {"table": "v2"}
+"""Depths that keep no pressure, and the one whose film they look up."""
 
 
 @dataclass(frozen=True)
@@ -47,12 +52,15 @@ class FilmMap:
     gap : ndarray, shape (n, m)
         Between journal and rigid bore in m, as the film sees it: without tilts where it knows none; negative
         where asperities, or a soft layer, give way. Not-a-number in grooves.
+    content : ndarray, shape (n, m), or None
+        Share of the gap that oil fills, of a mass-conserving film.
     """
 
     angle: Floats
     z: Floats
     pressure: Floats
     gap: Floats
+    content: Floats | None = None
 
 
 def film_map(
@@ -60,10 +68,11 @@ def film_map(
     values: Mapping[str, Value],
     q: ArrayLike,
     v: ArrayLike,
-    speed: float,
+    speed: ArrayLike,
     *,
     columns: int = 121,
     rows: int = 25,
+    step: float = 0.0,
     tilts: ArrayLike | None = None,
 ) -> FilmMap | None:
     """Evaluate a film and draw it.
@@ -74,12 +83,15 @@ def film_map(
         Name of a depth.
     values : mapping
         Parameters of its unit by name.
-    q, v : array_like, shape (4,)
-        Position of the journal relative to its bore, x, y in m and tilts in rad, and their rates.
-    speed : float
+    q, v : array_like, shape (4,) or (n, 4)
+        Position of the journal relative to its bore, x, y in m and tilts in rad, and their rates; or those
+        of the samples that lead to this instant, the first one in balance.
+    speed : array_like, shape () or (n,)
         Rotor speed in rad/s.
     columns, rows : int
         Points around the circumference and along the axis.
+    step : float
+        From one sample to the next in s.
     tilts : array_like, shape (pads,), optional
         Of tilting pads about their pivots, rad; by default as they stand at rest there.
 
@@ -95,29 +107,46 @@ def film_map(
     """
     if depth not in depths.films():
         return None
-    film = depths.find(depth).make(values)
+    film = depths.find(_DRAWN.get(depth, depth)).make(values)
     if not isinstance(film, Film):
         return None
-    inputs = np.zeros(INPUTS)
-    inputs[:4], inputs[4:8], inputs[16] = np.asarray(q) + film.offset, v, speed
-    angle = np.linspace(0.0, TURN, columns)
-    place = np.linspace(-1.0, 1.0, rows)
+    positions, rates = np.atleast_2d(np.asarray(q, dtype=float)), np.atleast_2d(np.asarray(v, dtype=float))
+    inputs = np.zeros((len(positions), INPUTS))
+    inputs[:, :4], inputs[:, 4:8], inputs[:, 16] = positions + film.offset, rates, speed
+    angle, place = np.linspace(0.0, TURN, columns), np.linspace(-1.0, 1.0, rows)
     if isinstance(film, TiltingFilm):
-        return _of_pads(film, inputs, angle, place, None if tilts is None else np.asarray(tilts, float))
+        return _of_pads(film, inputs[-1], angle, place, None if tilts is None else np.asarray(tilts, float))
+    if isinstance(film, ConservingFilm):
+        _led(film, inputs, step)
+        return _conserving(film, positions[-1], angle, place)
+    return _solved(film, inputs[-1], film.offset, angle, place)
+
+
+def _led(film: Film, inputs: Floats, step: float) -> Floats:
+    """State of a film with memory behind its samples."""
+    state = film.rest()
+    for k, row in enumerate(inputs):
+        _, state = film.evaluate(state, row, step if k else 0.0)
+    return state
+
+
+def _solved(film: Film, inputs: Floats, offset: Floats, angle: Floats, place: Floats) -> FilmMap | None:
+    """The map of a film without memory."""
+    speed, p = float(inputs[16]), film.parameters
     space, data = film.take()
     try:
-        status = film.solver.kernel(inputs, film.offset, np.empty(OUTPUTS), *data)
+        status = film.solver.kernel(inputs, offset, np.empty(OUTPUTS), *data)
         if status:
-            raise film.failure(status, inputs, film.offset)
+            raise film.failure(status, inputs, offset)
         constants, _, _, solved, work = data
         pressure = _pressure(solved, constants[0], work[4:8], work[8:12], speed, angle, place)
     finally:
         film.bring_back(space)
     if pressure is None:
         return None
-    scales, p = constants[0], film.parameters
+    scales = constants[0]
     absolute = np.maximum(pressure + scales["ambient"], 0.0) * scales["pressure"]
-    seen = np.array(q, dtype=float)
+    seen = inputs[:4] - offset
     if not film.solver.tilts:
         seen[2:] = 0.0
     return FilmMap(angle, place * 0.5 * p.width, absolute, _gap(p, seen, angle, place))
@@ -142,6 +171,30 @@ def _of_pads(
         gap[on] = own[on]
         pressure[on] = (np.maximum(here + constants[0]["ambient"], 0.0) * constants[0]["pressure"])[on]
     return FilmMap(angle, place * 0.5 * p.width, pressure, gap)
+
+
+def _conserving(film: ConservingFilm, q: Floats, angle: Floats, place: Floats) -> FilmMap:
+    """What the last evaluation of a mass-conserving film has left in its work space, which comes first."""
+    space, data = film.take()
+    try:
+        scales, solved = data[0][0], data[3]
+        assert isinstance(solved, JfoFilm)
+        where = np.arctan2(solved.film.rings[0][SIN], solved.film.rings[0][COS])[: solved.volumes.shape[1]]
+        rows, beyond = len(solved.net.content), float(solved.net.ends[0])
+        nodes = np.concatenate([[-1.0], axial_basis(rows).nodes[:rows], [1.0]])
+
+        def cells(values: Floats, ends: Floats) -> Floats:
+            """Between the cells of a field, and its ends, straight."""
+            columns = [np.interp(place, nodes, column) for column in np.vstack([ends, values, ends]).T]
+            return np.array([np.interp(angle, where, row, period=TURN) for row in np.array(columns).T])
+
+        content = cells(solved.net.content, solved.net.content[[0, -1]].mean(axis=0))
+        pressure = cells(solved.net.pressure, np.full(where.size, beyond))
+        p = film.parameters
+    finally:
+        film.bring_back(space)
+    absolute = np.maximum(pressure, 0.0) * scales["pressure"]
+    return FilmMap(angle, place * 0.5 * p.width, absolute, _gap(p, q, angle, place), content)
 
 
 def _pressure(

@@ -33,7 +33,7 @@ from fmus.port.bearing import (
     default_of,
     default_word,
 )
-from fmus.port.bore import pads_in
+from fmus.port.bore import pads_in, room_in
 from fmus.port.connector import (
     F0,
     FORCE,
@@ -129,6 +129,7 @@ __all__ = [
     "default_of",
     "default_word",
     "pads_in",
+    "room_in",
     "rotor",
     "rows_of_values",
     "viscosity_index",

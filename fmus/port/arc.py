@@ -73,8 +73,11 @@ class Arc:
     def room(self, angle: float) -> float:
         """Displacement in a direction, over the clearance, at which the journal touches the arc.
 
-        Infinity where it never does.
+        Infinity where it never does. A tilting pad turns away until the journal stands at its pivot.
         """
+        if self.tilts:
+            along = math.cos(self.towards - angle)
+            return (1.0 - self.preload) / along if along > ROUND else math.inf
         # gap 0 at phi: r = (1 - preload cos(phi - towards)) / cos(phi - angle); inside the arc e(r) = 1
         ends = [(self.gap(phi), math.cos(phi - angle)) for phi in (self.start, self.end)]
         reach = min((gap / along for gap, along in ends if along > ROUND), default=math.inf)

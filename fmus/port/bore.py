@@ -33,6 +33,7 @@ __all__ = [
     "pads_in",
     "pocketed",
     "room",
+    "room_in",
     "tilting",
     "to_text",
 ]
@@ -194,6 +195,11 @@ def from_text(text: str) -> Bore:
 def pads_in(text: str) -> int:
     """Number of tilting pads of a bore's text."""
     return sum(arc.tilts for arc in from_text(text))
+
+
+def room_in(text: str, angle: float) -> float:
+    """`room` in a bore of a text."""
+    return room(from_text(text), angle)
 
 
 def _row(arc: Arc) -> list[float | bool | None]:

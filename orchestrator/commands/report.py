@@ -10,7 +10,7 @@ from rich.console import Console
 
 from orchestrator.report.ensemble.page import write_study_report
 from orchestrator.report.facts import conclusion
-from orchestrator.report.library import require_library
+from orchestrator.report.library import require_library, require_paper
 from orchestrator.report.source import ReportError, load_results
 from orchestrator.report.write import FILE, write_print, write_report
 from orchestrator.results import manifest
@@ -62,6 +62,8 @@ def run(request: ReportRequest, console: Console) -> int:
         Results that are none, limits that cannot be read, no plotting library.
     """
     require_library()
+    if request.pdf:
+        require_paper()
     if any(is_study(path) for path in request.results):
         return _of_a_study(request, console)
     if request.file.is_dir():

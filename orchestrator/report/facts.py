@@ -16,12 +16,16 @@ from orchestrator.results.journals import probes_of
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import ledger_of
 from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown
-from orchestrator.results.signals.orders import order_amplitudes, probe_signals
+from orchestrator.results.signals.orders import order_amplitudes, probe_signals, turned_angle
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, defect_statistics
 from orchestrator.results.verdicts.conclusion import Conclusion, conclude
 from orchestrator.results.verdicts.verdict import Grade, Verdict
 from orchestrator.results.windows import Phase
+from orchestrator.scenario.events import BladeLoss, Event
+from orchestrator.scenario.schedule import from_attributes
 
+_CHANGING = 4.0
+"""Revolutions over which amplitudes are taken where the speed changes."""
 DEFECT_FINE, DEFECT_COARSE = 0.02, 0.1
 """Share of the largest force up to which a defect is small, and from which it is large."""
 
@@ -61,6 +65,7 @@ def trust(result: Result) -> Iterator[Fact]:
     attributes = result.record.attrs
     status, message = str(attributes.get("status", "finished")), str(attributes.get("message", ""))
     good = finished(result)
+    yield Fact("run", _course(result))
     yield Fact("outcome", status + (f": {message}" if message else ""), Level.GOOD if good else Level.BAD)
     yield from _defect(result)
     yield from _certificate(result)
@@ -91,6 +96,19 @@ def trust(result: Result) -> Iterator[Fact]:
     if notes:
         yield Fact("windows", "; ".join(notes), Level.MIND)
     yield Fact("model", _model(result))
+
+
+def _course(result: Result) -> str:
+    """What happens in a run, and when."""
+    start, end = result.time[0], result.time[-1]
+    events = [event for event in from_attributes(result.record.attrs).events if event.time <= end]
+    parts = [f"{start:.4g} to {end:.4g} s", *(_event(event) for event in events)]
+    return "; ".join(parts if events else [*parts, "nothing happens"])
+
+
+def _event(event: Event) -> str:
+    much = f", {event.unbalance:.4g} kg m" if isinstance(event, BladeLoss) else ""
+    return f"{event.text} at {event.time:.4g} s{much}"
 
 
 def _defect(result: Result) -> Iterator[Fact]:
@@ -139,7 +157,8 @@ def _model(result: Result) -> str:
         parts.append(f"film {film['columns']} × {film['rows']}")
     if "reduction" in attributes:
         parts.append(f"shaft reduced by {attributes['reduction']}")
-    parts.append(f"{abs(result.speed) / (2 * math.pi) * 60:.0f} rev/min")
+    speeds = [result.speed] if result.changing_speed is None else result.changing_speed[[0, -1]]
+    parts.append(" to ".join(f"{abs(speed) / (2 * math.pi) * 60:.0f}" for speed in speeds) + " rev/min")
     return ", ".join(parts)
 
 
@@ -164,7 +183,7 @@ class BearingLine:
 
 BEARING_HEADS = (
     "bearing", "depth", "mean force before", "largest after", "least gap before", "after",
-    "time in contact", "vibration p-p", "½X", "1X before", "1X after", "2X",
+    "time in contact", "vibration p\u2011p", "½X", "1X before", "1X after", "2X",
 )  # fmt: skip
 """½X and 2X are those of the last phase; all at the first probe, zero to peak."""
 
@@ -198,9 +217,13 @@ def bearing_lines(result: Result) -> Iterator[BearingLine]:
 
 def _orders(result: Result, bearing: str, phase: Phase) -> tuple[float, ...]:
     """Amplitudes of ½X, 1X and 2X in the means' window of a phase [m]."""
-    inside = phase.mean.mask(result.time)
+    inside, speed = phase.mean.mask(result.time), result.changing_speed
+    if speed is not None:  # along which amplitudes change: of the last revolutions
+        turns = turned_angle(result.time, speed) / (2.0 * math.pi)
+        inside &= turns >= np.interp(phase.mean.end, result.time, turns) - _CHANGING
     if np.count_nonzero(inside) < 8:
         return (math.nan,) * 3
     signal = probe_signals(result.journal(bearing)[:, inside], probes_of(result.record)[:1])[0]
-    found = order_amplitudes(result.time[inside], signal, result.speed, (0.5, 1.0, 2.0))
+    at = result.speed if speed is None else speed[inside]
+    found = order_amplitudes(result.time[inside], signal, at, (0.5, 1.0, 2.0))
     return tuple(float(a) for a in np.abs(found))

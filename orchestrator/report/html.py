@@ -40,11 +40,16 @@ def dot(kind: str) -> Markup:
     return tag("span", klass=f"dot {kind}", title=kind)
 
 
-def table(heads: Sequence[str], rows: Iterable[Markup], texts: Sequence[int] = ()) -> Markup:
-    """A table that scrolls sideways where the screen is narrow; columns in `texts` hold words."""
+def table(
+    heads: Sequence[str], rows: Iterable[Markup], texts: Sequence[int] = (), kind: str | None = None
+) -> Markup:
+    """A table that scrolls sideways where the screen is narrow; columns in `texts` hold words.
+
+    One of the kind ``cards`` has a block for each row there.
+    """
     cells = [tag("th", head, klass="text" if k in texts else None) for k, head in enumerate(heads)]
     head = tag("thead", tag("tr", *cells))
-    return tag("div", tag("table", head, tag("tbody", *rows)), klass="wide")
+    return tag("div", tag("table", head, tag("tbody", *rows), klass=kind), klass="wide")
 
 
 def row(cells: Sequence[str], texts: Sequence[int] = (), **attributes: str | None) -> Markup:

@@ -1,14 +1,15 @@
-"""The plotting library of the page, from the package plotly."""
+"""The libraries of reports, from the packages plotly and pypdf."""
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Callable
 
 from orchestrator.errors import OrchestratorError
 
 
 class LibraryMissingError(OrchestratorError):
-    """The page cannot be drawn without the package plotly."""
+    """The page cannot be drawn without the package plotly, nor printed without pypdf."""
 
     @property
     def exit_status(self) -> int:
@@ -32,3 +33,11 @@ def require_library() -> Callable[[], str]:
         ) from None
     read: Callable[[], str] = get_plotlyjs
     return read
+
+
+def require_paper() -> None:
+    """Raise `LibraryMissingError` where the package is not installed that puts figures on sheets."""
+    if importlib.util.find_spec("pypdf") is None:
+        raise LibraryMissingError(
+            "the PDF of a report needs the package pypdf: pip install 'bladeloss[report]', or pip install pypdf"
+        )

@@ -60,10 +60,12 @@ function draw(panel, content) {
   const figure = opened(content);
   const scene = figure.layout.scene;
   if (scene) {
+    if (innerWidth < 760) plot.style.height = "330px";
     const back = Math.max(1, 2.1 * plot.clientHeight / plot.clientWidth); // a narrow window sees less along the shaft
     for (const axis of ["x", "y", "z"]) scene.camera.eye[axis] *= back;
   }
-  const config = { responsive: true, displaylogo: false, displayModeBar: "hover", modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+  const pointer = matchMedia("(hover: hover)").matches && !panel.closest(".small, .side"); // else the bar hides what is small
+  const config = { responsive: true, displaylogo: false, displayModeBar: pointer ? "hover" : false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
   Plotly.newPlot(plot, figure.data, figure.layout, config).then(() => {
     panel.dataset.drawn = "yes";
     if (figure.moving) moving(panel, plot, figure.moving);

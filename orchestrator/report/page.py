@@ -31,9 +31,10 @@ SECTIONS = {
     "spectra": (
         "Spectra",
         "Zero to peak of the journal's motion at the angles of the probes; Hann window over whole pairs of "
-        "revolutions, before the event and from where means are taken behind it.",
+        "revolutions, before the event and from where means are taken behind it. Where the speed changes, "
+        "over its orders.",
     ),
-    "waterfall": ("Waterfall", "The same at the first probe over time."),
+    "waterfall": ("Waterfall", "The same at the first probe over time; dashed: what happens."),
     "bode": (
         "Bode plot over speed",
         "1X at the first probe, zero to peak; its phase counts from the start.",
@@ -41,7 +42,8 @@ SECTIONS = {
     "pressure": (
         "Film pressure",
         "Unwrapped film at the worst instants of the record; 0° is x, 90° is up. White: lines of equal gap "
-        "to the rigid bore in µm; cross: least gap.",
+        "to the rigid bore in µm; cross: least gap. Of mass-conserving films also the share of the gap that "
+        "oil fills.",
     ),
     "shaft": ("Shaft", "From the static line; stresses are nominal, from bending."),
     "shaft3d": (
@@ -131,7 +133,7 @@ def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: 
     look = "panels side" if side else "panels small" if key == "orbits" else "panels"
     legend: tuple[Markup, ...] = ()
     if key == "orbits":
-        entries = (tag("span", _swatch(colour), words) for colour, words in LEGEND)
+        entries = (tag("span", _sign(sign, colour), words) for sign, colour, words in LEGEND)
         legend = (tag("div", *entries, klass="legend soft"),)
     elif several:
         legend = (tag("div", *(tag("span", _key(r), r.name) for r in results), klass="legend soft"),)
@@ -143,8 +145,11 @@ def _section(key: str, heading: str, text: str, own: dict[str, Panel], results: 
     )
 
 
-def _swatch(colour: str) -> Markup:
-    return tag("span", klass="key", style=f"border-color:{colour}")
+def _sign(sign: str, colour: str) -> Markup:
+    """A sign of a legend; a line is drawn."""
+    if sign == "—":
+        return tag("span", klass="key", style=f"border-color:{colour}")
+    return tag("span", sign, klass="sign", style=f"color:{colour}")
 
 
 def box(name: str, panel: Panel) -> Markup:
@@ -180,8 +185,8 @@ def _verdicts(results: Sequence[Result]) -> Markup:
     for result in results:
         if len(results) > 1:
             parts.append(tag("h3", _key(result), result.name))
-        parts.append(table(VERDICT_HEADS, (verdict_row(v) for v in worst(result.verdicts)), _TEXTS))
-        every = table(VERDICT_HEADS, (verdict_row(v) for v in result.verdicts), _TEXTS)
+        parts.append(table(VERDICT_HEADS, (verdict_row(v) for v in worst(result.verdicts)), _TEXTS, "cards"))
+        every = table(VERDICT_HEADS, (verdict_row(v) for v in result.verdicts), _TEXTS, "cards")
         count = f"All {len(result.verdicts)} verdicts, bearing by bearing"
         parts.append(tag("details", tag("summary", count), every))
     return tag("section", *parts, id="verdicts")

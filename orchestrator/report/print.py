@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Sequence
-from io import BytesIO, StringIO
+from io import StringIO
 
-from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from rich import box
 from rich.console import Console
@@ -20,15 +19,14 @@ from orchestrator.report.facts import (
     trust,
     verdict_cells,
 )
+from orchestrator.report.paper import MARGIN, PAPER, on_paper
 from orchestrator.report.source import Result
 from orchestrator.results.figures.write import figures_of, own_settings
 from orchestrator.results.verdicts.verdict import worst
 
-PAPER = (11.69, 8.27)
-"""A4 across, in inches."""
-WIDTH, LINES = 150, 62
+WIDTH, LINES = 150, 112
 """Letters of a line, and lines of a page."""
-_MARGIN, _SIZE = 0.45, 7.6
+_SIZE = 5.9
 
 
 def printed(results: Sequence[Result], bearing: str) -> bytes:
@@ -41,17 +39,25 @@ def printed(results: Sequence[Result], bearing: str) -> bytes:
     bearing : str
         That is shown where one is.
     """
-    content = BytesIO()
     title = str(results[0].record.attrs.get("title", "")) or "Results"
-    information = {"Title": title, "Creator": "bladeloss", "CreationDate": None}
-    with own_settings(), PdfPages(content, metadata=information) as pages:
-        for result in results:
-            lines = "\n".join([title, "", *_words(result)]).rstrip().split("\n")
-            for start in range(0, len(lines), LINES):
-                pages.savefig(_page(lines[start : start + LINES], headed=start == 0))
-        for _, figure in figures_of([result.record for result in results], bearing=bearing):
-            pages.savefig(figure)
-    return content.getvalue()
+    with own_settings():
+        parts = ["\n".join(_words(result)).rstrip().split("\n") for result in results]
+        figures = (figure for _, figure in figures_of([r.record for r in results], bearing=bearing))
+        return on_paper(list(_pages(title, parts)), figures, {"Title": title, "Creator": "bladeloss"})
+
+
+def _pages(title: str, parts: Sequence[Sequence[str]]) -> Iterator[Figure]:
+    """Pages of words; a part begins on a new page where it would be torn apart."""
+    lines = [title, ""]
+    for part in parts:
+        if len(lines) > 2 and len(lines) + len(part) > LINES:
+            yield _page(lines)
+            lines = [title, ""]
+        lines += [*part, "", ""]
+        while len(lines) > LINES and len("".join(lines[LINES:]).strip()):
+            yield _page(lines[:LINES])
+            lines = [title, "", *lines[LINES:]]
+    yield _page(lines)
 
 
 def _words(result: Result) -> Iterator[str]:
@@ -82,12 +88,12 @@ def _table(heading: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) ->
     yield from (line.rstrip() for line in text.getvalue().splitlines())
 
 
-def _page(lines: Sequence[str], *, headed: bool) -> Figure:
+def _page(lines: Sequence[str]) -> Figure:
     figure = Figure(figsize=PAPER)
-    top = 1.0 - _MARGIN / PAPER[1]
-    step = (1.0 - 2.0 * _MARGIN / PAPER[1]) / LINES
+    top = 1.0 - MARGIN / PAPER[1]
+    step = (1.0 - 2.0 * MARGIN / PAPER[1]) / LINES
     for k, line in enumerate(lines):
-        look = {"fontsize": 13.0, "fontweight": "bold"} if headed and k == 0 else {"fontsize": _SIZE}
-        family = "DejaVu Sans" if headed and k == 0 else "DejaVu Sans Mono"
-        figure.text(_MARGIN / PAPER[0], top - k * step, line, va="top", family=family, **look)
+        look = {"fontsize": _SIZE} if k else {"fontsize": 12.0, "fontweight": "bold"}
+        family = "DejaVu Sans Mono" if k else "DejaVu Sans"
+        figure.text(MARGIN / PAPER[0], top - k * step, line, va="top", family=family, **look)
     return figure

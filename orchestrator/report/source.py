@@ -14,9 +14,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from bearing_fmu import depths
 from orchestrator.errors import OrchestratorError
 from orchestrator.results.figures import style
+from orchestrator.results.journals import changing_speed
 from orchestrator.results.record_files import RECORD_FILE, blocks_in, read_record
+from orchestrator.results.relative_motion import journal_motion
 from orchestrator.results.statistics import analysed_bearing, contact_threshold
 from orchestrator.results.verdicts.judge import judge, own_limits
 from orchestrator.results.verdicts.limits import Limits
@@ -25,7 +28,8 @@ from orchestrator.results.windows import Phase, phases
 
 SUMMARY_FILE = "summary.json"
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
-_DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+_DASHES = ("solid", "dash", "dashdot", "dot", "longdashdot", "longdash")
+"""Of the depths in their order, as in the figures of matplotlib."""
 
 
 class ReportError(OrchestratorError):
@@ -58,6 +62,7 @@ class Result:
     dash: str = _DASHES[0]
     _kept: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
     _thresholds: dict[str, float] = field(default_factory=dict, repr=False)
+    _journals: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -73,6 +78,11 @@ class Result:
     def turn(self) -> float:
         """Length of a revolution in s."""
         return 2.0 * math.pi / abs(self.speed)
+
+    @cached_property
+    def changing_speed(self) -> NDArray[np.float64] | None:
+        """Speed at each instant in rad/s, None where it stays."""
+        return changing_speed(self.record)
 
     @cached_property
     def bearings(self) -> tuple[str, ...]:
@@ -94,10 +104,9 @@ class Result:
 
     def journal(self, bearing: str) -> NDArray[np.float64]:
         """Journal from the centre of its bearing, shape (2, time), in m."""
-        centre = self.of("offset", bearing)[:, None]
-        if "housing_displacement" in self.record:
-            centre = centre + self.of("housing_displacement", bearing)
-        return self.of("displacement", bearing) - centre
+        if bearing not in self._journals:
+            self._journals[bearing] = journal_motion(self.record, bearing)
+        return self._journals[bearing]
 
     def touching(self, bearing: str) -> NDArray[np.bool_]:
         """When surfaces touch."""
@@ -132,15 +141,24 @@ def results_of(
     limits: Limits | None = None,
 ) -> tuple[Result, ...]:
     """Results from records that are at hand; otherwise as `load_results`."""
-    names = _names(records, paths)
+    names, looks = _names(records, paths), _looks(records)
     found = []
     for k, (name, record) in enumerate(zip(names, records, strict=True)):
         _require_motion(record, name)
         summary = summaries[k] if k < len(summaries) else {}
         verdicts = judge(record, limits or own_limits(record))
-        look = _COLOURS[k % len(_COLOURS)], _DASHES[k % len(_DASHES)]
-        found.append(Result(name, record, summary, verdicts, *look))
+        found.append(Result(name, record, summary, verdicts, *looks[k]))
     return tuple(found)
+
+
+def _looks(records: Sequence[xr.Dataset]) -> list[tuple[str, str]]:
+    """Colour and dash of each: those of their depths, as in every figure, or by number where depths recur."""
+    if len(records) == 1:
+        return [(style.colour_of(style.depth_at(records[0])), _DASHES[0])]
+    own, known = [style.depth_at(record) for record in records], list(depths.names())
+    if len(set(own)) < len(own) or not set(own) <= set(known):
+        return [(_COLOURS[k % len(_COLOURS)], _DASHES[k % len(_DASHES)]) for k in range(len(own))]
+    return [(style.colour_of(depth), _DASHES[known.index(depth) % len(_DASHES)]) for depth in own]
 
 
 def shown_bearing(results: Sequence[Result], named: str | None = None) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from orchestrator.errors import NotWrittenError
+from orchestrator.report.library import require_paper
 from orchestrator.report.page import page
 from orchestrator.report.panels.bode import bode
 from orchestrator.report.panels.orbits import orbits
@@ -50,7 +51,8 @@ def write_report(results: Sequence[Result], path: Path, bearing: str | None = No
 
 
 def write_print(results: Sequence[Result], path: Path, bearing: str | None = None) -> Path:
-    """Write the same to be printed, as a PDF; raises as `write_report`."""
+    """Write the same to be printed, as a PDF; raises as `write_report`, and without pypdf."""
+    require_paper()
     from orchestrator.report.print import printed  # matplotlib loads for half a second
 
     return write_whole(path, lambda: printed(results, shown_bearing(results, bearing)))

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.results.signals.orders import probe_signals
-from orchestrator.results.signals.spectrum import Spectrum, spectrum, waterfall
+from orchestrator.results.signals.orders import probe_signals, turned_angle
+from orchestrator.results.signals.spectrum import Spectrum, order_spectrum, spectrum, waterfall
 from orchestrator.results.statistics import contact_threshold
 from orchestrator.results.verdicts.judge import own_limits
 from orchestrator.results.windows import Phase, Window
@@ -25,8 +25,8 @@ BEFORE, FIRST, LAST = 2.0, 10.0, 5.0
 """Revolutions shown before the event, behind it, and at the end of the run."""
 HIGHEST = 6.0
 """Order of the speed up to which spectra are drawn."""
-STEADY = 20.0
-"""Revolutions before an event of which the spectrum is made."""
+STEADY, FEWEST = 20.0, 4.0
+"""Revolutions before an event of which the spectrum is made, and of which one is made at least."""
 LENGTH, SLICES, HIGHEST_OVER_TIME = 8.0, 80, 4.0
 """Of a waterfall: revolutions of a slice, how many slices, up to which order."""
 LEAST_CHANGE = 0.02
@@ -42,13 +42,6 @@ class Part:
 
     name: str
     window: Window
-
-
-def journal_motion(record: xr.Dataset, bearing: str) -> Floats:
-    """Journal from the centre of its bearing, shape (2, time), in m."""
-    one = record[["displacement", "offset"]].sel(bearing=bearing)
-    moved = one["displacement"] - one["offset"]
-    return np.asarray(moved.transpose("axis", "time").values, dtype=float)
 
 
 def touching(record: xr.Dataset, bearing: str, phases: Sequence[Phase]) -> NDArray[np.bool_]:
@@ -79,10 +72,14 @@ def orbit_parts(phases: Sequence[Phase], turn: float) -> tuple[Part, ...]:
 
 
 def steady_window(phase: Phase, turn: float) -> Window:
-    """Where the motion is steady: before an event the last revolutions, or else where means are taken."""
-    if phase.name != "before":
+    """Where the motion is steady: before an event the last revolutions, or else where means are taken.
+
+    A shorter one than a spectrum can be made of is drawn out to the fewest revolutions that the phase has.
+    """
+    if phase.name != "before" and phase.mean.length >= (FEWEST - 1e-6) * turn:
         return phase.mean
-    return Window(max(phase.span.start, phase.span.end - STEADY * turn), phase.span.end)
+    count = STEADY if phase.name == "before" else FEWEST
+    return Window(max(phase.span.start, phase.span.end - (count + 1e-6) * turn), phase.span.end)
 
 
 def changing_speed(record: xr.Dataset) -> Floats | None:
@@ -94,9 +91,11 @@ def changing_speed(record: xr.Dataset) -> Floats | None:
 
 
 def probe_spectrum(
-    time: Floats, motion: Floats, angle: float, window: Window, turn: float
+    time: Floats, motion: Floats, angle: float, window: Window, turn: float, speed: Floats | None = None
 ) -> Spectrum | None:
     """Amplitudes [m] at a probe over whole pairs of revolutions, so that half orders lie on a line.
+
+    Where the speed changes, over orders: of samples at even angles of the rotation.
 
     Parameters
     ----------
@@ -110,22 +109,38 @@ def probe_spectrum(
         Of as many whole pairs as it holds, the last are taken.
     turn : float
         Length of a revolution in s.
+    speed : ndarray, shape (n,), optional
+        In rad/s where it changes, not negative.
 
     Returns
     -------
     Spectrum or None
-        Up to the order `HIGHEST`; None of fewer than 8 samples, or of records too far apart.
+        Up to the order `HIGHEST`; None of fewer than `FEWEST` revolutions, or of records too far apart.
     """
-    pairs = math.floor(window.length / (2.0 * turn) + 1e-6)
-    start = window.end - 2.0 * turn * max(pairs, 1)
     if _coarse(time, turn):
         return None
+    signal = probe_signals(motion, [angle])[0]
+    if speed is not None:
+        inside = window.mask(time)
+        return _over_orders(time[inside], signal[inside], speed[inside])
+    pairs = math.floor(window.length / (2.0 * turn) + 1e-6)
+    if 2.0 * pairs < FEWEST:
+        return None
+    start = window.end - 2.0 * turn * pairs
     step = (time[-1] - time[0]) / (time.size - 1)
     chosen = (time > max(start, time[0]) - 0.5 * step) & (time < window.end - 0.5 * step)
-    if np.count_nonzero(chosen) < 8:
-        return None
-    found = spectrum(time[chosen], probe_signals(motion[:, chosen], [angle])[0])
+    found = spectrum(time[chosen], signal[chosen])
     inside = (found.frequency > 0.0) & (found.frequency <= HIGHEST / turn)
+    return Spectrum(found.frequency[inside], found.amplitude[inside])
+
+
+def _over_orders(time: Floats, signal: Floats, speed: Floats) -> Spectrum | None:
+    turns = turned_angle(time, speed) / (2.0 * math.pi) if time.size else time
+    pairs = math.floor(turns[-1] / 2.0 + 1e-6) if time.size else 0
+    if 2.0 * pairs < FEWEST or speed.min() <= 0.0:
+        return None
+    found = order_spectrum(time, signal, speed, 2 * pairs)
+    inside = (found.frequency > 0.0) & (found.frequency <= HIGHEST)
     return Spectrum(found.frequency[inside], found.amplitude[inside])
 
 

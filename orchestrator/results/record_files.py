@@ -114,7 +114,7 @@ def _joined(parts: list[xr.Dataset]) -> xr.Dataset:
 def table_columns(record: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
     """Yield the columns of the CSV: ``time``, then every series of a bearing or of the whole shaft.
 
-    Names follow ``bearing.quantity_axis [unit]``, without commas.
+    Names follow ``bearing.quantity_axis [unit]``, or ``_pad`` by its number, without commas.
     """
     yield "time", record["time"].values
     names = [str(name).replace(",", ";") for name in record["bearing"].values]
@@ -127,11 +127,13 @@ def table_columns(record: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]
             continue
         for i, name in enumerate(names):
             values = series.isel(bearing=i)
-            if "axis" not in series.dims:
+            if values.ndim == 1:
                 yield f"{name}.{label}{unit}", values.values
                 continue
-            for j, axis in enumerate(record["axis"].values):
-                yield f"{name}.{label}_{axis}{unit}", values.isel(axis=j).values
+            part = str(values.dims[1])  # x and y, or the pads by their number
+            parts = record[part].values if part in record.coords else range(1, values.sizes[part] + 1)
+            for j, word in enumerate(parts):
+                yield f"{name}.{label}_{word}{unit}", values.isel({part: j}).values
 
 
 def _write_table(record: xr.Dataset, path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -12,14 +11,15 @@ import numpy as np
 from bearing_fmu.film_map import FilmMap, film_map
 from fmus import port
 from orchestrator.results.quantities import FORCE, GAP, shown
+from orchestrator.results.relative_motion import PARAMETERS, film_states, parameters_at
 from orchestrator.results.statistics import contact_threshold
 from orchestrator.results.windows import phases
 
 if TYPE_CHECKING:
     import xarray as xr
 
-PARAMETERS = "bearing_parameters"
-"""Of a record: what the unit of each bearing was given, as JSON."""
+LED = 1.0
+"""Revolutions over which a film with memory is led to the instant, along the record."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def worst_films(
         if index in told:
             continue
         told.add(index)
-        found = _film(one, index, columns, rows)
+        found = _film(record, bearing, index, columns, rows)
         if found is None:
             return
         yield WorstFilm(name, text, float(record["time"].values[index]), found)
@@ -81,20 +81,18 @@ def _instants(record: xr.Dataset, one: xr.Dataset, bearing: str) -> Iterator[tup
         yield "hardest contact", shown(float(contact[at]), FORCE), at
 
 
-def _film(one: xr.Dataset, index: int, columns: int, rows: int) -> FilmMap | None:
-    values = json.loads(str(one[PARAMETERS].values))
-    now = one.isel(time=index)
-    q = np.concatenate([now["displacement"] - now["offset"], now["tilt"] - now["offset_tilt"]])
-    v = np.concatenate([now["velocity"], now["tilt_rate"]])
-    speed = float(now["rotation_speed" if "rotation_speed" in now else "rotor_speed"])
-    tilts = (
-        now["pad_tilt"].values[: port.pads_in(str(values[port.BEARING_KEYS["bore"]]))]
-        if "pad_tilt" in now
-        else None
-    )
+def _film(record: xr.Dataset, bearing: str, index: int, columns: int, rows: int) -> FilmMap | None:
+    time = np.asarray(record["time"].values, dtype=float)
+    step = (time[-1] - time[0]) / max(time.size - 1, 1)
+    turn = 2.0 * np.pi / abs(float(record.attrs["speed"]))
+    first = max(0, index - round(LED * turn / step)) if step > 0.0 else index
+    depth = str(record["depth"].sel(bearing=bearing).values)
+    values = parameters_at(record, bearing, float(time[index]))
+    states = film_states(record, bearing, first, index)
+    tilts = None
+    if "pad_tilt" in record and (pads := port.pads_in(str(values[port.BEARING_KEYS["bore"]]))):
+        tilts = record["pad_tilt"].sel(bearing=bearing).transpose("time", "pad").values[index, :pads]
     try:
-        return film_map(
-            str(one["depth"].values), values, q, v, speed, columns=columns, rows=rows, tilts=tilts
-        )
+        return film_map(depth, values, *states, columns=columns, rows=rows, step=step, tilts=tilts)
     except (ArithmeticError, KeyError, ValueError):  # of another version, or beyond what a film answers
         return None

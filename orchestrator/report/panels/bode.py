@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from orchestrator.report.encode import packed
 from orchestrator.report.panels.panel import Panel, Trace, layout, line, stacked
 from orchestrator.report.source import Result
-from orchestrator.results.journals import changing_speed, probes_of
+from orchestrator.results.journals import probes_of
 from orchestrator.results.signals.orders import probe_signals, tracked_order
 
 MICRO = 1e6
@@ -21,7 +20,7 @@ TURNS, POINTS = 4.0, 400
 
 def bode(results: Sequence[Result]) -> Iterator[Panel]:
     """For each bearing 1X at the first probe over speed; nothing of runs at one speed."""
-    speeds = {result.name: speed for result in results if (speed := speed_over_time(result)) is not None}
+    speeds = {r.name: r.changing_speed for r in results if r.changing_speed is not None}
     names = dict.fromkeys(name for result in results for name in result.bearings)
     for bearing in names if speeds else ():
         having = [r for r in results if r.name in speeds and bearing in r.bearings]
@@ -39,8 +38,3 @@ def bode(results: Sequence[Result]) -> Iterator[Panel]:
                 start = line(result, result.name, **place.trace(result.name))
                 traces.append(start | {"x": minute, "y": packed(values)})
         yield Panel("bode", f"{bearing}: 1X over speed", traces, shown, bearing, 380)
-
-
-def speed_over_time(result: Result) -> NDArray[np.float64] | None:
-    """Speed at each instant in rad/s, None where it stays."""
-    return changing_speed(result.record)

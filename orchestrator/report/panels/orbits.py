@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.report.encode import packed
-from orchestrator.report.panels.panel import CALM, CONTACT, INK, Panel, Trace, axis, layout
+from orchestrator.report.panels.panel import CONTACT, INK, Panel, Trace, axis, layout
 from orchestrator.report.source import Result
 from orchestrator.results.journals import BEFORE, FIRST, LAST, orbit_parts
+from orchestrator.results.relative_motion import room_of
 
 MICRO = 1e6
 SAMPLES, MARKS = 1600, 150
@@ -39,8 +40,8 @@ def orbits(results: Sequence[Result]) -> Iterator[Panel]:
 
 
 def _reach(result: Result, bearing: str) -> float:
-    clearance = float(result.of("bearing_clearance", bearing))
-    return 1.08 * MICRO * max(clearance, float(np.abs(result.journal(bearing)).max()))
+    widest = 0.0 if (room := room_of(result.record, bearing)) is None else float(np.nanmax(np.abs(room)))
+    return 1.08 * MICRO * max(widest, float(np.nanmax(np.abs(result.journal(bearing)))), 1e-9)
 
 
 def _tick(reach: float) -> float:
@@ -51,14 +52,12 @@ def _tick(reach: float) -> float:
 
 def _traces(result: Result, bearing: str) -> list[Trace]:
     journal = result.journal(bearing) * MICRO
-    clearance = float(result.of("bearing_clearance", bearing)) * MICRO
-    angle = np.linspace(0.0, 2.0 * np.pi, 121)
-    circle = {
-        "type": "scatter", "mode": "lines", "line": {"color": INK, "width": 1.6}, "hoverinfo": "skip",
-        "x": packed(clearance * np.cos(angle), 0.1), "y": packed(clearance * np.sin(angle), 0.1),
-        "fill": "toself", "fillcolor": "#F6F3EA", "name": "clearance",
-    }  # fmt: skip
-    traces: list[Trace] = [circle]
+    room, traces = room_of(result.record, bearing), list[Trace]()
+    if room is not None:
+        look = {"line": {"color": INK, "width": 1.6}, "mode": "lines", "hoverinfo": "skip"}
+        if np.isfinite(room).all():
+            look |= {"fill": "toself", "fillcolor": "#F6F3EA"}
+        traces.append({"type": "scatter", **look, "name": "clearance", **_points(room * MICRO)})
     for part in orbit_parts(result.phases, result.turn):
         colour, width = _LOOKS.get(part.name, (_LATE, 1.4))
         chosen = np.flatnonzero(part.window.mask(result.time))
@@ -71,7 +70,9 @@ def _traces(result: Result, bearing: str) -> list[Trace]:
         chosen = np.sort(touching[np.argsort(force)[-MARKS:]])
         look = {"mode": "markers", "marker": {"color": CONTACT, "size": 4}, "name": "solid contact"}
         traces.append({"type": "scatter", **look, **_points(journal[:, chosen])})
-    worst = int(np.argmin(result.of("least_gap", bearing)))
+    if np.isnan(result.of("least_gap", bearing)).all():  # without a bore
+        return traces
+    worst = int(np.nanargmin(result.of("least_gap", bearing)))
     text = f"least gap {result.of('least_gap', bearing)[worst] * MICRO:.1f} µm at {result.time[worst]:.4f} s"
     star = {"symbol": "star", "size": 8, "color": "#F2B705", "line": {"color": INK, "width": 1}}
     marked = {"mode": "markers", "marker": star, "name": text}
@@ -84,11 +85,11 @@ def _points(places: NDArray[np.float64]) -> Trace:
 
 
 LEGEND = (
-    ("#111111", f"last {BEFORE:g} revolutions before the event"),
-    (_EARLY, f"first {FIRST:g} behind it"),
-    (_LATE, f"last {LAST:g} of the run"),
-    (CONTACT, "solid contact"),
-    ("#F2B705", "least gap of the run (star)"),
-    (CALM, "circle: radial clearance, within which the journal's centre can move without tilt"),
+    ("—", "#111111", f"last {BEFORE:g} revolutions before the event"),
+    ("—", _EARLY, f"first {FIRST:g} behind it"),
+    ("—", _LATE, f"last {LAST:g} of the run"),
+    ("●", CONTACT, "solid contact"),
+    ("★", "#F2B705", "least gap of the run"),
+    ("○", INK, "clearance: within it the journal's centre can move without tilt"),
 )
-"""Colours and what they stand for."""
+"""Signs, their colours, and what they stand for."""

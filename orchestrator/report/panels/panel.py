@@ -11,6 +11,8 @@ from orchestrator.scenario.schedule import from_attributes
 
 INK, GRID, EVENT, CONTACT, CALM = "#222222", "#E3E6EA", "#6B7280", "#C8102E", "#8A9099"
 Trace = dict[str, Any]
+_LETTER = 0.012
+"""Width of a note's letter over that of a figure on a small screen."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,7 @@ def axis(title: str, **more: Any) -> dict[str, Any]:
 def layout(**more: Any) -> dict[str, Any]:
     """A layout in the style of the page."""
     return {
-        "margin": {"l": 62, "r": 14, "t": 12, "b": 44},
+        "margin": {"l": 62, "r": 14, "t": 32, "b": 44},
         "font": {"family": "system-ui, sans-serif", "size": 12, "color": INK},
         "paper_bgcolor": "white",
         "plot_bgcolor": "white",
@@ -86,7 +88,12 @@ class Place:
 
 
 def stacked(
-    shown: dict[str, Any], abscissa: str, ordinates: Sequence[str], gap: float = 0.06, **look: Any
+    shown: dict[str, Any],
+    abscissa: str,
+    ordinates: Sequence[str],
+    gap: float = 0.06,
+    span: Sequence[float] | None = None,
+    **look: Any,
 ) -> list[Place]:
     """Put axes above one another into a layout; they share the abscissa, which is named below the last.
 
@@ -98,38 +105,63 @@ def stacked(
         Titles; as many axes as ordinates.
     gap : float
         Between them.
+    span : sequence of float, optional
+        Ends of the abscissa.
     **look
         Of the ordinates.
     """
     places = []
-    for k, (title, span) in enumerate(zip(ordinates, rows(len(ordinates), gap), strict=True)):
+    for k, (title, domain) in enumerate(zip(ordinates, rows(len(ordinates), gap), strict=True)):
         tail, below = str(k + 1) if k else "", k == len(ordinates) - 1
         place = Place(f"x{tail}", f"y{tail}", k == 0)
-        shown[f"yaxis{tail}"] = axis(title, domain=span, anchor=place.x, **look)
+        shown[f"yaxis{tail}"] = axis(title, domain=domain, anchor=place.x, **look)
         shown[f"xaxis{tail}"] = axis(abscissa if below else "", anchor=place.y, showticklabels=below)
+        if span is not None:
+            shown[f"xaxis{tail}"]["range"] = list(span)
         if k:
             shown[f"xaxis{tail}"]["matches"] = "x"
         places.append(place)
     return places
 
 
-def event_lines(results: Sequence[Result]) -> dict[str, Any]:
-    """Shapes and a note at each instant at which something happens."""
-    found = {
-        event.time: event.text for result in results for event in from_attributes(result.record.attrs).events
-    }
+def events_of(results: Sequence[Result]) -> dict[float, str]:
+    """What happens in the time that was recorded, by its instant [s], ascending."""
+    found: dict[float, list[str]] = {}
+    for result in results:
+        for event in from_attributes(result.record.attrs).events:
+            if event.time <= result.time[-1] and event.text not in found.setdefault(event.time, []):
+                found[event.time].append(event.text)
+    return {time: ", ".join(found[time]) for time in sorted(found)}
+
+
+def time_span(results: Sequence[Result]) -> list[float]:
+    """The time that was recorded [s], of all results."""
+    return [float(min(r.time[0] for r in results)), float(max(r.time[-1] for r in results))]
+
+
+def event_lines(results: Sequence[Result], bottom: float = 0.0) -> dict[str, Any]:
+    """Shapes and a note at each instant at which something happens.
+
+    Notes stand above the topmost axes, those near one another in several lines.
+    """
+    found = events_of(results)
+    start, end = time_span(results)
     line = {"color": EVENT, "width": 1, "dash": "dash"}
     shapes = [
-        {"type": "line", "x0": time, "x1": time, "y0": 0, "y1": 1, "yref": "paper", "line": line}
+        {"type": "line", "x0": time, "x1": time, "y0": bottom, "y1": 1, "yref": "paper", "line": line}
         for time in found
     ]
-    notes = [
-        {
-            "x": time, "y": 1, "yref": "paper", "text": text, "showarrow": False, "xanchor": "right",
-            "yanchor": "top", "xshift": -4, "font": {"size": 11, "color": EVENT},
-        }
-        for time, text in found.items()
-    ]  # fmt: skip
+    notes, ends = [], list[float]()
+    for time, text in found.items():
+        share = (time - start) / (end - start) if end > start else 0.0
+        # so many notes as still reach to here stand below it
+        level = sum(reach > share for reach in ends)
+        ends.append(share + _LETTER * len(text))
+        notes.append({
+            "x": time, "y": 1, "yref": "paper", "text": text, "showarrow": False, "yanchor": "bottom",
+            "xanchor": "left" if share < 0.5 else "right", "yshift": 13 * level,
+            "font": {"size": 11, "color": EVENT},
+        })  # fmt: skip
     return {"shapes": shapes, "annotations": notes}
 
 

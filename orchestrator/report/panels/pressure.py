@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from orchestrator.report.encode import packed
 from orchestrator.report.panels.panel import CONTACT, Panel, axis, layout
 from orchestrator.report.source import Result
 from orchestrator.results.worst_film import WorstFilm, worst_films
 
+Floats = NDArray[np.float64]
+
 COLUMNS, ROWS = 73, 17
+ROUND = [k * 10.0**power for power in range(4, -7, -1) for k in (5, 2, 1)]
+"""Pressures that stand at the scale of colours [MPa]."""
 _MEGA, _MILLI, _MICRO = 1e-6, 1e3, 1e6
 
 
@@ -32,20 +38,42 @@ def film_pressures(results: Sequence[Result]) -> Iterator[Panel]:
             name = f"{bearing}, {result.name}" if len(results) > 1 else bearing
             title = f"{name}: {worst.name}, {worst.text} at {worst.time:.4f} s"
             yield _panel(bearing, title, worst, top)
+            if worst.film.content is not None:
+                title = f"{name}: share of the gap that oil fills, {worst.name}, at {worst.time:.4f} s"
+                yield _content(bearing, title, worst.film.angle, worst.film.z, worst.film.content)
+
+
+def _content(bearing: str, title: str, angle: Floats, z: Floats, content: Floats) -> Panel:
+    """Where oil fills the gap."""
+    heat = {
+        "type": "heatmap", "x": packed(np.degrees(angle)), "y": packed(z * _MILLI), "zmin": 0.0, "zmax": 1.0,
+        "z": packed(content, 1e-3), "colorscale": "Blues", "reversescale": False,
+        "colorbar": {"title": {"text": "1"}, "thickness": 12},
+        "hovertemplate": "%{x:.0f}°, z %{y:.0f} mm: %{z:.3f}<extra></extra>",
+    }  # fmt: skip
+    return Panel("pressure", title, [heat], _axes(), bearing, 250)
+
+
+def _axes() -> dict[str, Any]:
+    return layout(
+        xaxis=axis("angle from x towards y [°]", dtick=90, minor={"dtick": 45}, range=[0, 360]),
+        yaxis=axis("z [mm]"),
+        showlegend=False,
+    )
 
 
 def _panel(bearing: str, title: str, worst: WorstFilm, top: float) -> Panel:
     film = worst.film
     angle, z, gap = np.degrees(film.angle), film.z * _MILLI, film.gap * _MICRO
     common = {"x": packed(angle), "y": packed(z)}
-    ticks = [top * share for share in (0.0, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0)]
+    ticks = [tick for tick in ROUND if 0.03 * top <= tick <= top] + [0.0]
     heat = {
         "type": "heatmap", **common, "z": packed(np.sqrt(film.pressure * _MEGA), 1e-3 * np.sqrt(top)),
         "customdata": packed(film.pressure * _MEGA, 1e-3 * top), "zmin": 0.0, "zmax": float(np.sqrt(top)),
         "zsmooth": "best", "colorscale": "Cividis",
         "colorbar": {
             "title": {"text": "MPa"}, "thickness": 12, "tickvals": list(np.sqrt(ticks)),
-            "ticktext": [f"{tick:.2g}" for tick in ticks],
+            "ticktext": [f"{tick:g}" for tick in ticks],
         },
         "hovertemplate": "%{x:.0f}°, z %{y:.0f} mm: %{customdata:.2f} MPa<extra></extra>",
     }  # fmt: skip
@@ -60,10 +88,4 @@ def _panel(bearing: str, title: str, worst: WorstFilm, top: float) -> Panel:
         "marker": {"symbol": "x", "size": 9, "color": CONTACT, "line": {"width": 1, "color": "white"}},
         "hovertemplate": f"least gap {float(gap[j, i]):.1f} µm<extra></extra>",
     }  # fmt: skip
-    shown = layout(
-        xaxis=axis("angle from x towards y [°]", dtick=45, range=[0, 360]),
-        yaxis=axis("z [mm]"),
-        showlegend=False,
-        margin={"l": 62, "r": 14, "t": 30, "b": 44},
-    )
-    return Panel("pressure", title, [heat, lines, mark], shown, bearing, 250)
+    return Panel("pressure", title, [heat, lines, mark], _axes(), bearing, 250)

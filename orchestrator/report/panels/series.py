@@ -8,7 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.report.encode import packed
-from orchestrator.report.panels.panel import CONTACT, Panel, Place, Trace, event_lines, layout, line, stacked
+from orchestrator.report.panels.panel import (
+    CONTACT,
+    Panel,
+    Place,
+    Trace,
+    event_lines,
+    layout,
+    line,
+    stacked,
+    time_span,
+)
 from orchestrator.report.source import Result
 from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, STRESS, Quantity
 from orchestrator.results.signals.envelope import envelope
@@ -49,11 +59,11 @@ def bearing_series(results: Sequence[Result]) -> Iterator[Panel]:
         units = [_fitting(quantity, own) for (_, quantity, _), own in zip(table, values, strict=True)]
         shown = layout(**event_lines(having), showlegend=False)
         titles = [f"{label} [{unit.unit}]" for (label, _, _), unit in zip(table, units, strict=True)]
-        places = stacked(shown, "time [s]", titles)
+        places = stacked(shown, "time [s]", titles, span=time_span(results), rangemode="tozero")
         shown["shapes"] = [*shown["shapes"], _zero(places[1])]
         traces = _curves(having, places, values, units, samples)
         yield Panel(
-            "series", f"{bearing}: force, least gap, contact", traces, shown, bearing, 170 * len(table) + 60
+            "series", f"{bearing}: force, least gap, contact", traces, shown, bearing, 170 * len(table) + 80
         )
 
 
@@ -63,7 +73,7 @@ def shaft_series(results: Sequence[Result]) -> Iterator[Panel]:
     table = {"vibration_amplitude_max": AMPLITUDE, "normal_stress_max": STRESS}
     shown = layout(**event_lines(results), showlegend=False)
     titles = [f"{quantity.label.split()[-1]} [{quantity.unit}]" for quantity in table.values()]
-    places = stacked(shown, "time [s]", titles, rangemode="tozero")
+    places = stacked(shown, "time [s]", titles, span=time_span(results), rangemode="tozero")
     values = [[np.asarray(r.record[name].values, dtype=float) for r in results] for name in table]
     traces = _curves(results, places, values, list(table.values()), samples)
     yield Panel(

@@ -10,13 +10,22 @@ from typing import Any
 import numpy as np
 
 from orchestrator.report.encode import packed
-from orchestrator.report.panels.panel import EVENT, Panel, Place, Trace, axis, layout, line, stacked
+from orchestrator.report.panels.panel import (
+    EVENT,
+    Panel,
+    Place,
+    Trace,
+    axis,
+    events_of,
+    layout,
+    line,
+    stacked,
+)
 from orchestrator.report.source import Result
 from orchestrator.results.journals import (
     FLOOR,
     HIGHEST,
     HIGHEST_OVER_TIME,
-    changing_speed,
     probe_spectrum,
     probe_waterfall,
     probes_of,
@@ -26,6 +35,8 @@ from orchestrator.results.signals.orders import NAMED
 from orchestrator.results.signals.spectrum import Spectrum
 
 MICRO = 1e6
+DECADES = 5.0
+"""Of amplitudes that are shown."""
 SMALLEST = FLOOR * MICRO
 """Smallest amplitude drawn [µm]."""
 
@@ -44,10 +55,24 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
             **order_lines(having[0], HIGHEST),
         )
         titles = [f"{math.degrees(angle):.0f}° [µm]" for angle in angles]
-        places = stacked(shown, "frequency [Hz]", titles, gap=0.09, type="log", exponentformat="power")
+        over_orders = having[0].changing_speed is not None
+        having = [result for result in having if (result.changing_speed is not None) == over_orders]
+        abscissa, highest = ("order of the speed", HIGHEST)
+        if not over_orders:
+            abscissa, highest = "frequency [Hz]", HIGHEST / having[0].turn
+        look = {"type": "log", "dtick": 1, "tickformat": "~g"}
+        places = stacked(shown, abscissa, titles, gap=0.09, span=(0.0, highest), **look)
+        top = 1e-3
         for angle, place in zip(angles, places, strict=True):
             for result in having:
-                traces += _lines(result, bearing, angle, place, several=len(results) > 1)
+                for trace, largest in _lines(result, bearing, angle, place, several=len(results) > 1):
+                    traces.append(trace)
+                    top = max(top, largest)
+        if not traces:
+            continue
+        for place in places:
+            end = math.log10(2.0 * top)
+            shown[f"yaxis{place.y[1:]}"]["range"] = [max(end - DECADES, math.log10(SMALLEST)), end]
         yield Panel("spectra", f"{bearing}: spectrum of the journal's motion", traces, shown, bearing, 420)
 
 
@@ -66,10 +91,8 @@ def waterfalls(results: Sequence[Result]) -> Iterator[Panel]:
 
 
 def order_lines(result: Result, highest: float) -> dict[str, Any]:
-    """Lines at the named orders of the speed; none where it changes."""
-    if changing_speed(result.record) is not None:
-        return {}
-    turn = 1.0 / result.turn
+    """Lines at the named orders of the speed; where it changes, over orders."""
+    turn = 1.0 if result.changing_speed is not None else 1.0 / result.turn
     look = {"color": EVENT, "width": 1, "dash": "dot"}
     shapes = [
         {"type": "line", "x0": k * turn, "x1": k * turn, "y0": 0, "y1": 1, "yref": "paper", "line": look}
@@ -85,23 +108,25 @@ def order_lines(result: Result, highest: float) -> dict[str, Any]:
     return {"shapes": shapes, "annotations": notes}
 
 
-def _lines(result: Result, bearing: str, angle: float, place: Place, *, several: bool) -> Iterator[Trace]:
+def _lines(
+    result: Result, bearing: str, angle: float, place: Place, *, several: bool
+) -> Iterator[tuple[Trace, float]]:
+    """A line of each phase, and its largest amplitude [µm]."""
     shown = {"before": ("before", 1.0, "dot"), "steady": ("lasting", 1.3, "solid")}
     for phase in result.phases:
-        name, width, dash = shown.get(phase.name, (phase.name, 1.5, "solid"))
+        last = "solid" if phase is result.phases[-1] else "dash"
+        name, width, dash = shown.get(phase.name, (phase.name, 1.5, last))
         window = steady_window(phase, result.turn)
-        found = probe_spectrum(result.time, result.journal(bearing), angle, window, result.turn)
+        motion, speed = result.journal(bearing), result.changing_speed
+        found = probe_spectrum(result.time, motion, angle, window, result.turn, speed)
         if found is None:
             continue
         label = f"{result.name}, {name}" if several else name
         colour = result.colour if several or name != "before" else "#555555"
         look = {"width": width, "dash": dash, "color": colour}
-        yield line(
-            result,
-            label,
-            line=look,
-            **place.trace(label),
-        ) | {"x": packed(found.frequency, 1e-3), "y": packed_log(found.amplitude * MICRO)}
+        start = line(result, label, line=look, **place.trace(label))
+        values = {"x": packed(found.frequency, 1e-3), "y": packed_log(found.amplitude * MICRO)}
+        yield start | values, float(found.amplitude.max()) * MICRO
 
 
 def packed_log(values: Any) -> dict[str, Any]:
@@ -136,27 +161,39 @@ def _waterfall_panel(result: Result, fall: Spectrum, bearing: str, title: str, t
         },
         "hovertemplate": "%{x:.1f} Hz, %{y:.3f} s: 10^%{z:.2f} µm<extra></extra>",
     }  # fmt: skip
-    shown = layout(
-        xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **order_lines(result, HIGHEST_OVER_TIME)
-    )
-    lines = shown.get("shapes", [])
+    orders = order_lines(result, HIGHEST_OVER_TIME) if result.changing_speed is None else {}
+    shown = layout(xaxis=axis("frequency [Hz]"), yaxis=axis("time [s]"), **orders)
+    lines = [*shown.get("shapes", []), *_happening(result, fall.time)]
     shown["shapes"] = [{**shape, "line": shape["line"] | {"color": "white"}} for shape in lines]
-    shown["margin"] = shown["margin"] | {"t": 26}
     return Panel("waterfall", title, [heat, *_orders_over_time(result, fall)], shown, bearing, 340)
 
 
+def _happening(result: Result, time: Any) -> Iterator[dict[str, Any]]:
+    """A line across at each event within a waterfall."""
+    for at in events_of([result]):
+        if time[0] <= at <= time[-1]:
+            ends = {"x0": 0, "x1": 1, "xref": "paper", "y0": at, "y1": at}
+            yield {"type": "line", **ends, "line": {"width": 1, "dash": "dash"}}
+
+
 def _orders_over_time(result: Result, fall: Spectrum) -> Iterator[Trace]:
-    """Lines of the orders that follow a changing speed."""
-    speed = changing_speed(result.record)
+    """Lines of the orders that follow a changing speed, with their names."""
+    speed = result.changing_speed
     if speed is None or fall.time is None:
         return
     for order, name in NAMED.items():
         frequency = np.interp(fall.time, result.time, speed) * order / (2.0 * math.pi)
         frequency[frequency > float(fall.frequency.max())] = np.nan
+        if np.isnan(frequency).all():
+            continue
+        last = int(np.flatnonzero(np.isfinite(frequency))[-1])
         yield {
             "type": "scatter",
-            "mode": "lines",
+            "mode": "lines+text",
             "name": name,
+            "text": [name if k == last else "" for k in range(frequency.size)],
+            "textposition": "bottom right",
+            "textfont": {"color": "white", "size": 11},
             "x": [None if np.isnan(x) else round(float(x), 4) for x in frequency],
             "y": [round(float(t), 5) for t in fall.time],
             "line": {"color": "white", "width": 1, "dash": "dot"},

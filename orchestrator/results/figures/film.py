@@ -26,6 +26,8 @@ _SMALL = 0.004
 def film_maps(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure | None:
     """Draw pressure (left) and gap (right) at the worst instants of each run, in the same scales.
 
+    Of mass-conserving films a third column shows which share of the gap oil fills.
+
     Parameters
     ----------
     records : sequence of xarray.Dataset
@@ -44,7 +46,9 @@ def film_maps(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         return None
     title = f"Film at the worst instants, {bearing}"
     figure = style.new_figure(12.0, 1.3 + 2.2 * len(rows), title, style.caption(records))
-    grid = figure.subplots(len(rows), 2, sharex=True, sharey=True, squeeze=False)
+    contents = [worst.film.content for _, worst in rows]
+    full = any(content is not None for content in contents)
+    grid = figure.subplots(len(rows), 2 + full, sharex=True, sharey=True, squeeze=False)
     top = max(float(worst.film.pressure.max()) for _, worst in rows)
     gaps = [worst.film.gap for _, worst in rows]
     scales = (
@@ -59,19 +63,37 @@ def film_maps(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
                 np.degrees(worst.film.angle), worst.film.z * 1e3, values, **look
             )
             _mark(grid[row, column], worst)
-            grid[row, column].tick_params(labelsize=style.FONT - 1)
         bar = figure.colorbar(drawn, ax=list(grid[:, column]), pad=0.015, aspect=14 * len(rows))
         bar.set_ticks(levels, labels=[f"{level:.3g}" for level in levels])
         bar.set_label(f"{quantity.label} [{quantity.unit}]".removeprefix("least "), fontsize=style.FONT)
         bar.ax.tick_params(labelsize=style.FONT - 2)
-        grid[-1, column].set_xlabel("angle from x towards y [°]", fontsize=style.FONT)
-        grid[-1, column].set_xticks(np.arange(0.0, 361.0, 45.0))
+    if full:
+        _draw_contents(figure, grid[:, 2], [worst for _, worst in rows])
     for row, (record, worst) in enumerate(rows):
         words = f"{worst.name}: {worst.text} at {worst.time:.4f} s"
         prefix = style.row_prefix(records, record, bearing)
+        for axes in grid[row]:
+            axes.tick_params(labelsize=style.FONT - 1)
         grid[row, 0].set_title(prefix + words, loc="left", fontsize=style.FONT)
         grid[row, 0].set_ylabel("z [mm]", fontsize=style.FONT)
+    for axes in grid[-1]:
+        axes.set_xlabel("angle from x towards y [°]", fontsize=style.FONT)
+        axes.set_xticks(np.arange(0.0, 361.0, 90.0 if full else 45.0))
     return figure
+
+
+def _draw_contents(figure: Figure, column: Sequence[Axes], found: Sequence[WorstFilm]) -> None:
+    """The share of the gap that oil fills; nothing for a film that does not know it."""
+    drawn = None
+    for axes, worst in zip(column, found, strict=True):
+        film = worst.film
+        if film.content is not None:
+            look: dict[str, Any] = {"levels": np.linspace(0.0, 1.0, 11), "cmap": "Blues"}
+            drawn = axes.contourf(np.degrees(film.angle), film.z * 1e3, film.content.clip(0.0, 1.0), **look)
+    if drawn is not None:
+        bar = figure.colorbar(drawn, ax=list(column), pad=0.015, aspect=14 * len(found))
+        bar.set_label("share of the gap that oil fills", fontsize=style.FONT)
+        bar.ax.tick_params(labelsize=style.FONT - 2)
 
 
 def steps(largest: float, smallest: float, factor: float) -> list[float]:

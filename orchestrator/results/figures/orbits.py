@@ -10,6 +10,7 @@ import numpy as np
 
 from orchestrator.results import journals, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.relative_motion import journal_motion, room_of
 from orchestrator.results.windows import phases
 
 if TYPE_CHECKING:
@@ -73,18 +74,17 @@ def _least(record: xr.Dataset, bearing: str) -> str:
 
 
 def _reach(record: xr.Dataset, bearing: str) -> float:
-    clearance = float(record["bearing_clearance"].sel(bearing=bearing))
-    return 1.08 * MICRO * max(clearance, float(np.abs(journals.journal_motion(record, bearing)).max()))
+    widest = 0.0 if (room := room_of(record, bearing)) is None else float(np.nanmax(np.abs(room)))
+    return 1.08 * MICRO * max(widest, float(np.nanmax(np.abs(journal_motion(record, bearing)))), 1e-9)
 
 
 def _orbit(axes: Axes, record: xr.Dataset, bearing: str, reach: float) -> None:
     time = np.asarray(record["time"].values, dtype=float)
-    motion = journals.journal_motion(record, bearing) * MICRO
-    angle = np.linspace(0.0, 2.0 * math.pi, 181)
-    radius = float(record["bearing_clearance"].sel(bearing=bearing)) * MICRO
-    circle = radius * np.cos(angle), radius * np.sin(angle)
-    axes.fill(*circle, color="#F6F3EA", zorder=0)
-    axes.plot(*circle, color="#222222", linewidth=1.2, label="radial clearance", zorder=1)
+    motion = journal_motion(record, bearing) * MICRO
+    room = room_of(record, bearing)
+    if room is not None:
+        axes.fill(*(room * MICRO), color="#F6F3EA", zorder=0)
+        axes.plot(*(room * MICRO), color="#222222", linewidth=1.2, label="clearance", zorder=1)
     found = phases(record)
     turn = 2.0 * math.pi / abs(float(record.attrs["speed"]))
     for part in journals.orbit_parts(found, turn):

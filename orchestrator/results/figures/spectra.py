@@ -12,6 +12,7 @@ from matplotlib.ticker import FuncFormatter
 
 from orchestrator.results import journals, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.relative_motion import journal_motion
 from orchestrator.results.signals.orders import NAMED
 from orchestrator.results.windows import phases
 
@@ -42,24 +43,27 @@ def spectra(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure
         12.0, 1.7 + 2.7 * len(records), f"Spectra of the journal, {bearing}", style.caption(records)
     )
     grid = figure.subplots(len(records), len(angles), sharex=True, sharey=True, squeeze=False)
-    largest = 0.0
+    largest, speeds = 0.0, [journals.changing_speed(record) for record in records]
+    over_orders = speeds[0] is not None
     for row, record in enumerate(records):
         time = np.asarray(record["time"].values, dtype=float)
-        motion, turn = journals.journal_motion(record, bearing), _turn(record)
+        motion, turn = journal_motion(record, bearing), _turn(record)
         for column, angle in enumerate(angles):
             axes = grid[row, column]
-            for phase in phases(record):
+            every = phases(record)
+            for phase in every:
                 window = journals.steady_window(phase, turn)
-                found = journals.probe_spectrum(time, motion, angle, window, turn)
+                found = journals.probe_spectrum(time, motion, angle, window, turn, speeds[row])
                 if found is None:
                     continue
                 amplitude = np.maximum(found.amplitude, journals.FLOOR) * MICRO
-                before = phase.name == "before"
-                look = {"color": _BEFORE if before else _LASTING, "linestyle": "--" if before else "-"}
+                before, last = phase.name == "before", phase is every[-1]
+                dash = "--" if before else "-" if last else ":"
+                look = {"color": _BEFORE if before else _LASTING, "linestyle": dash}
                 axes.semilogy(found.frequency, amplitude, linewidth=1.0, **look, label=phase.name)
                 largest = max(largest, float(amplitude.max()))
-            if journals.changing_speed(record) is None:  # else an order has no frequency of its own
-                _name_orders(axes, turn, journals.HIGHEST, named=row == 0)
+            if (speeds[row] is not None) == over_orders:
+                _name_orders(axes, 1.0 if over_orders else turn, journals.HIGHEST, named=row == 0)
             style.dress(axes)
             prefix = style.row_prefix(records, record, bearing)
             axes.set_title(
@@ -67,8 +71,8 @@ def spectra(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure
             )
         grid[row, 0].set_ylabel("amplitude, zero to peak [µm]")
     for axes in grid[-1]:
-        axes.set_xlabel("frequency [Hz]")
-        axes.set_xlim(0.0, journals.HIGHEST / _turn(records[0]))
+        axes.set_xlabel("order of the speed" if over_orders else "frequency [Hz]")
+        axes.set_xlim(0.0, journals.HIGHEST / (1.0 if over_orders else _turn(records[0])))
     if largest > 0.0:
         grid[0, 0].yaxis.set_major_formatter(_PLAIN)
         grid[0, 0].set_ylim(1.5 * largest * 10.0**-_DECADES, 2.5 * largest)
@@ -93,7 +97,7 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
     found = []
     for record in records:
         time = np.asarray(record["time"].values, dtype=float)
-        motion, angle = journals.journal_motion(record, bearing), journals.probes_of(record)[0]
+        motion, angle = journal_motion(record, bearing), journals.probes_of(record)[0]
         found.append(journals.probe_waterfall(time, motion, angle, _turn(record)))
     top = max((float(fall.amplitude.max()) for fall in found if fall is not None), default=0.0) * MICRO
     norm = LogNorm(max(top, 1e-3) * 1e-4, max(top, 1e-3), clip=True)

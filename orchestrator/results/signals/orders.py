@@ -16,8 +16,16 @@ NAMED = {0.5: "½X", 1.0: "1X", 2.0: "2X", 3.0: "3X"}
 """Orders that figures name: whirl of a film, or a rub every second turn; unbalance; bow and misfit."""
 
 
-def order_amplitudes(time: ArrayLike, values: ArrayLike, speed: float, orders: Sequence[float]) -> Complex:
-    """Complex amplitudes ``A`` of ``x = mean + Re sum A_k exp(i k speed t)``, by least squares.
+def turned_angle(time: ArrayLike, speed: ArrayLike) -> Floats:
+    """Angle of the rotation since the first sample in rad, of speeds in rad/s, shape (n,)."""
+    t, w = np.asarray(time, dtype=float), np.asarray(speed, dtype=float)
+    return np.concatenate([[0.0], np.cumsum(0.5 * (w[1:] + w[:-1]) * np.diff(t))])
+
+
+def order_amplitudes(
+    time: ArrayLike, values: ArrayLike, speed: ArrayLike, orders: Sequence[float]
+) -> Complex:
+    """Complex amplitudes ``A`` of ``x = mean + Re sum A_k exp(i k theta)``, by least squares.
 
     Parameters
     ----------
@@ -25,18 +33,19 @@ def order_amplitudes(time: ArrayLike, values: ArrayLike, speed: float, orders: S
         In s; samples may be uneven.
     values : array_like, shape (n, ...)
         Signals.
-    speed : float
-        In rad/s.
+    speed : array_like, shape () or (n,)
+        In rad/s: theta = speed t; where it changes theta is its integral from the first sample.
     orders : sequence of float
         Above 0.
 
     Returns
     -------
     ndarray, shape (len(orders), ...)
-        Phases count from t = 0: a lag is negative.
+        Phases count from theta = 0: a lag is negative.
     """
     t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
-    turn = np.exp(1j * speed * np.outer(t, orders))
+    theta = turned_angle(t, speed) if np.ndim(speed) else float(np.asarray(speed)) * t
+    turn = np.exp(1j * np.outer(theta, orders))
     columns = np.hstack([np.ones((t.size, 1)), turn.real, -turn.imag])
     found = np.linalg.lstsq(columns, x.reshape(t.size, -1), rcond=None)[0]
     real, imaginary = found[1 : len(orders) + 1], found[len(orders) + 1 :]
@@ -76,7 +85,7 @@ def tracked_order(
         ``A``; its phase counts from theta = 0 at the first sample. Not-a-number at standstill.
     """
     t, x, w = (np.asarray(a, dtype=float) for a in (time, values, speed))
-    theta = np.concatenate([[0.0], np.cumsum(0.5 * (w[1:] + w[:-1]) * np.diff(t))])
+    theta = turned_angle(t, w)
     half = np.pi * turns
     if theta[-1] <= 2.0 * half:
         return np.empty(0), np.empty(0, dtype=complex)

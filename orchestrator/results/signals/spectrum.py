@@ -6,7 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
 from scipy.signal import get_window
+
+from orchestrator.results.signals.orders import turned_angle
 
 Floats = NDArray[np.float64]
 
@@ -64,6 +67,32 @@ def spectrum(time: ArrayLike, values: ArrayLike, *, window: str = "hann") -> Spe
     """
     step, even = evenly(time, values)
     return Spectrum(_lines(even.size, step), _amplitudes(even, window))
+
+
+def order_spectrum(
+    time: ArrayLike, values: ArrayLike, speed: ArrayLike, turns: int, *, window: str = "hann"
+) -> Spectrum:
+    """Amplitudes over orders of a changing speed: the spectrum of samples at even angles of the rotation.
+
+    Parameters
+    ----------
+    time, values, speed : array_like, shape (n,)
+        The record, in s and rad/s; the speed above 0.
+    turns : int
+        Whole revolutions; the last ones are taken.
+    window : str
+        As in `spectrum`.
+
+    Returns
+    -------
+    Spectrum
+        Its ``frequency`` is the order, 1 for once a revolution.
+    """
+    t = np.asarray(time, dtype=float)
+    theta = turned_angle(t, speed) / (2.0 * np.pi)
+    size = max(int(np.count_nonzero(theta > theta[-1] - turns)), 8)
+    even = theta[-1] - turns + turns / size * np.arange(size)
+    return spectrum(even, CubicSpline(theta, values)(even), window=window)
 
 
 def waterfall(

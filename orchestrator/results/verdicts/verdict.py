@@ -24,6 +24,7 @@ class Grade(StrEnum):
         return list(Grade).index(self)
 
 
+_SHOWN = 9.99  # largest share that is told; none is of a gap below zero
 CLOSE_FROM = 0.9
 """Share of a limit from which a figure is called close to it."""
 
@@ -102,7 +103,9 @@ class Verdict:
 
     def share_text(self) -> str:
         """The share in per cent."""
-        return "-" if self.bound == 0.0 else f"{100.0 * self.share:.0f} %"
+        if self.bound == 0.0:
+            return "-"
+        return "> 999 %" if self.share > _SHOWN else f"{100.0 * self.share:.0f} %"
 
     def source_text(self) -> str:
         """The source, and whether it was read."""

@@ -9,7 +9,7 @@ import pytest
 
 from bearing_fmu.bore.bore import bore_of, least_gap
 from bearing_fmu.film import make_film
-from fmus.port.bore import Arc, check, from_text, grooved, lobes, room, to_text
+from fmus.port.bore import Arc, check, from_text, grooved, lobes, room, tilting, to_text
 from tests.bearing_fmu.bearings import lever, plain, respond, table
 from tests.published import published as published_case
 
@@ -108,6 +108,13 @@ def test_room_ends_where_the_journal_touches(name):
         if reach < 10.0:
             q = reach * np.array([math.cos(angle), math.sin(angle), 0.0, 0.0])
             assert least_gap(bore_of(bore, 48), q)[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_room_on_tilting_pads_is_a_polygon_through_their_pivots():
+    bore = tilting(4, 1.2, 0.2, 0.55)
+    for arc in bore:
+        assert room(bore, arc.towards) == pytest.approx(0.8, rel=1e-12)
+        assert room(bore, arc.towards + math.pi / 4.0) == pytest.approx(0.8 * math.sqrt(2.0), rel=1e-12)
 
 
 def test_bores_survive_their_text():

@@ -4,12 +4,14 @@ import base64
 import gzip
 import json
 from html.parser import HTMLParser
+from io import BytesIO
 from itertools import islice
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pypdf import PdfReader
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
@@ -126,7 +128,10 @@ def test_the_same_can_be_printed(records, tmp_path, monkeypatch):
     monkeypatch.setattr("orchestrator.report.print.figures_of", lambda *_, **__: few)
     short = [record.isel(bearing=[0, 1], time=slice(900, 1200)) for record in records]
     content = write_print(results_of(short), tmp_path / "report.pdf").read_bytes()
-    assert content.startswith(b"%PDF") and content.count(b"/Type /Page ") >= 2 + 2
+    pages = [page.extract_text() for page in PdfReader(BytesIO(content)).pages]
+    assert len(pages) == 2  # words of both runs on one sheet, two figures on another
+    assert pages[0].count("How far to trust it") == 2
+    assert "Deformed train" in pages[1] and "Bearing force and moment" in pages[1]
     assert b"CreationDate" not in content  # the same results give the same bytes
     (tmp_path / "report.pdf").write_bytes(content + b"mine")
     with pytest.raises(ReportError, match="was changed since"):

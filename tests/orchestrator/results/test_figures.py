@@ -262,7 +262,7 @@ def test_orbits_of_all_bearings_lie_in_their_clearance(record):
     drawn = np.column_stack(before.get_data())
     assert abs(len(drawn) - span.sum()) <= 1
     assert {tuple(p) for p in drawn.round(6)} <= {tuple(p) for p in motion.round(6)}
-    circle = np.hypot(*line(axes, "radial clearance").get_data())
+    circle = np.hypot(*line(axes, "clearance").get_data())
     np.testing.assert_allclose(circle, synthetic_record.CLEARANCE * 1e6)
     styles = {found.get_label(): (found.get_color(), found.get_linestyle()) for found in axes.lines}
     assert len(set(styles.values())) == len(styles)  # also in grey print

@@ -13,7 +13,7 @@ from orchestrator.results.signals.orders import (
     tracked_order,
     whirl_of,
 )
-from orchestrator.results.signals.spectrum import evenly, spectrum, waterfall
+from orchestrator.results.signals.spectrum import evenly, order_spectrum, spectrum, waterfall
 
 SPEED = 2 * np.pi * 25.0
 STEP = 5e-4
@@ -125,6 +125,20 @@ def test_an_envelope_keeps_ends_and_extremes_of_every_piece():
         assert inside.max() >= values[piece].max()
         assert inside.min() <= values[piece].min()
     np.testing.assert_array_equal(envelope(values[:400], 500), np.arange(400))
+
+
+def test_a_spectrum_over_orders_reads_every_order_of_a_run_up():
+    time = np.arange(0.0, 2.0, 2e-4)
+    speed, theta = 60.0 + 80.0 * time, 60.0 * time + 40.0 * time**2
+    found = order_spectrum(time, signal(theta, {k / SPEED: a for k, a in TONES.items()}), speed, 40)
+    for k, a in TONES.items():
+        at = int(np.argmin(abs(found.frequency - k)))
+        assert found.frequency[at] == pytest.approx(k, abs=1e-9)
+        assert found.amplitude[at] == pytest.approx(abs(a), rel=1e-6)
+    amplitudes = order_amplitudes(
+        time, signal(theta, {k / SPEED: a for k, a in TONES.items()}), speed, list(TONES)
+    )
+    np.testing.assert_allclose(amplitudes, list(TONES.values()), rtol=1e-6)
 
 
 def test_an_order_is_tracked_while_the_speed_changes():
