@@ -39,5 +39,5 @@ def require_paper() -> None:
     """Raise `LibraryMissingError` where the package is not installed that puts figures on sheets."""
     if importlib.util.find_spec("pypdf") is None:
         raise LibraryMissingError(
-            "the PDF of a report needs the package pypdf: pip install 'bladeloss[report]', or pip install pypdf"
+            "a report's PDF needs the package pypdf: pip install 'bladeloss[report]', or pip install pypdf"
         )

@@ -68,7 +68,7 @@ def film_maps(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         bar.set_label(f"{quantity.label} [{quantity.unit}]".removeprefix("least "), fontsize=style.FONT)
         bar.ax.tick_params(labelsize=style.FONT - 2)
     if full:
-        _draw_contents(figure, grid[:, 2], [worst for _, worst in rows])
+        _draw_contents(figure, list(grid[:, 2]), [worst for _, worst in rows])
     for row, (record, worst) in enumerate(rows):
         words = f"{worst.name}: {worst.text} at {worst.time:.4f} s"
         prefix = style.row_prefix(records, record, bearing)
