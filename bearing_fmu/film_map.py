@@ -180,16 +180,11 @@ def _conserving(film: ConservingFilm, q: Floats, angle: Floats, place: Floats) -
         scales, solved = data[0][0], data[3]
         assert isinstance(solved, JfoFilm)
         where = np.arctan2(solved.film.rings[0][SIN], solved.film.rings[0][COS])[: solved.volumes.shape[1]]
-        rows, beyond = len(solved.net.content), float(solved.net.ends[0])
-        nodes = np.concatenate([[-1.0], axial_basis(rows).nodes[:rows], [1.0]])
-
-        def cells(values: Floats, ends: Floats) -> Floats:
-            """Between the cells of a field, and its ends, straight."""
-            columns = [np.interp(place, nodes, column) for column in np.vstack([ends, values, ends]).T]
-            return np.array([np.interp(angle, where, row, period=TURN) for row in np.array(columns).T])
-
-        content = cells(solved.net.content, solved.net.content[[0, -1]].mean(axis=0))
-        pressure = cells(solved.net.pressure, np.full(where.size, beyond))
+        ring = np.array([np.interp(angle, where, row, period=TURN) for row in solved.net.content])
+        nodes = axial_basis(ring.shape[0]).nodes[: ring.shape[0]]
+        content = np.array([np.interp(place, nodes, column) for column in ring.T]).T
+        pressure = _between(solved.film.rings[0][:, : where.size], solved.net.pressure, angle, place)
+        pressure[[0, -1]] = solved.net.ends[0]
         p = film.parameters
     finally:
         film.bring_back(space)
