@@ -161,7 +161,8 @@ def bearing_statistics(
     def told(name: str) -> float:
         return largest(f"{name}_max", series(record, name, bearing)) if name in record else 0.0
 
-    touching = span_interval & (contact_peak > contact_from)
+    # the sample at the start of a span belongs to it, the interval that it closes does not
+    touching = (span_interval & (contact_peak > contact_from)) | (span & (contact > contact_from))
     return BearingStatistics(
         bearing=bearing,
         phase=phase.name,

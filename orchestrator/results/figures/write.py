@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -99,7 +100,8 @@ def figures_of(
 @contextmanager
 def own_settings() -> Iterator[None]:
     """Draw by matplotlib's defaults, whatever the user's matplotlibrc says, and take titles as they are."""
-    with matplotlib.rc_context():
+    with matplotlib.rc_context(), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph")  # names in letters that its fonts do not have
         matplotlib.rcdefaults()
         matplotlib.rcParams["text.parse_math"] = False
         yield

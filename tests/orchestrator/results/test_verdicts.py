@@ -174,3 +174,12 @@ def test_every_limit_names_a_source():
     for limit in load_limits().model_dump(exclude_none=True).values():
         assert limit["source"]
     assert ShaftVibration.model_fields.keys() >= {"source", "read"}
+
+
+def test_contact_in_the_first_sample_of_a_phase_has_its_instant(record):
+    touched = record.isel(bearing=[0]).copy()
+    at_once = 1e6 * (abs(touched["time"] - 1.0) < 1e-9) + 0.0 * touched["contact_force"]
+    for name in ("contact_force", "contact_force_max"):
+        touched[name] = at_once
+    found = one(judge(touched, load_limits()), "solid contact", "after", "LP2-front")
+    assert found.note == "0 % of the time, first at 1.0000 s"
