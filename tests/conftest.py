@@ -109,7 +109,7 @@ def pytest_collection_modifyitems(config, items):
     items[:] = [items[index] for index in order]
 
 
-COUNTED_FOR, THEN_FOR, OF_EVERY = 1.0, 0.1, 0.5
+COUNTED_FOR, THEN_FOR, OF_EVERY = 2.0, 0.1, 0.5
 """Processor time in s: lines of a test, and of what is set up for it, count at first, then now and then.
 
 Most lines run early, and then many times over; Python 3.11 takes a multiple of the time where it counts them.

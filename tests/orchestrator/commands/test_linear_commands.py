@@ -41,19 +41,33 @@ COMMANDS = {
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Results of all commands, in results/, and what they printed; diagrams have half their points."""
+def results(tmp_path_factory):
+    """Run a command once and return its folder, with results/ and what it printed.
+
+    Diagrams have half their points.
+    """
     folder = tmp_path_factory.mktemp("linear")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        patch.setattr(response, "INTERVALS", 60)
-        patch.setattr(campbell, "FREE_STEPS", 10)
-        patch.setattr(campbell, "SUPPORTED_STEPS", 12)
-        for name, arguments in COMMANDS.items():
-            result = CliRunner().invoke(app, [*arguments], env={"COLUMNS": "100", "TERM": "dumb"})
+
+    def run(name):
+        said = folder / f"{name}.said"
+        if not said.exists():
+            with pytest.MonkeyPatch.context() as patch:
+                patch.chdir(folder)
+                patch.setattr(response, "INTERVALS", 60)
+                patch.setattr(campbell, "FREE_STEPS", 10)
+                patch.setattr(campbell, "SUPPORTED_STEPS", 12)
+                result = CliRunner().invoke(app, [*COMMANDS[name]], env={"COLUMNS": "100", "TERM": "dumb"})
             assert result.exit_code == 0, result.output
-            (folder / f"{name}.said").write_text(result.output)
-    return folder
+            said.write_text(result.output)
+        return folder
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def folder(results):
+    """The folder with the results of all commands."""
+    return {results(name) for name in COMMANDS}.pop()
 
 
 def data(folder, command, name=None):
@@ -64,7 +78,8 @@ def data(folder, command, name=None):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_file_is_written_and_named(folder, command):
+def test_every_file_is_written_and_named(results, command):
+    folder = results(command)
     said = (folder / f"{command}.said").read_text()
     named = re.findall(r"^results/\S+$", said, flags=re.MULTILINE)
     written = sorted(
