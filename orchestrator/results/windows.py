@@ -80,6 +80,16 @@ class Phase:
     note: str = ""
 
 
+def speed_in(record: xr.Dataset, window: Window) -> float:
+    """Mean speed in a window in rad/s, not negative; the start's where it stays, or the window has none."""
+    first = abs(float(record.attrs["speed"]))
+    if "rotation_speed" not in record:
+        return first
+    inside = window.mask(np.asarray(record["time"].values, dtype=float))
+    found = np.abs(record["rotation_speed"].values[inside])
+    return float(found.mean()) if found.any() else first
+
+
 def instants(record: xr.Dataset) -> tuple[float, ...]:
     """Instants of the events that the record reaches [s], ascending."""
     time = record["time"].values

@@ -32,7 +32,7 @@ from orchestrator.results.statistics import (
 )
 from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
 from orchestrator.results.verdicts.verdict import Grade, Verdict, held, worst
-from orchestrator.results.windows import Phase, phases
+from orchestrator.results.windows import Phase, phases, speed_in
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,7 +77,6 @@ class _Bearing:
     record: xr.Dataset
     name: str
     time: NDArray[np.float64]
-    speed: float
     diameter: float
     area: float
     contact_from: float
@@ -87,7 +86,7 @@ class _Bearing:
         diameter, width = (bearing_value(record, key, name) for key in ("diameter", "width"))
         time = np.asarray(record["time"].values, dtype=float)
         threshold = contact_threshold(record, name, found)
-        return cls(record, name, time, float(record.attrs["speed"]), diameter, diameter * width, threshold)
+        return cls(record, name, time, diameter, diameter * width, threshold)
 
     def verdicts(self, phase: Phase, limits: Limits) -> Iterator[Verdict]:
         """In one phase: film, load, contact, vibration."""
@@ -95,7 +94,7 @@ class _Bearing:
         place = phase.name, self.name
         bore = not math.isnan(found.least_gap_min)  # else stiffness and damping are all that is known
         if bore and (film := limits.least_film) is not None:
-            bound = film.at(self.diameter, self.speed * self.diameter / 2.0)
+            bound = film.at(self.diameter, speed_in(self.record, phase.peak) * self.diameter / 2.0)
             gap, when = found.least_gap_min, self._when("least_gap_min", phase, least=True)
             share = bound / gap if gap > 0.0 else math.inf
             yield held(film, "least film", place, GAP, gap, bound, share=share, instant=when)
@@ -119,13 +118,14 @@ class _Bearing:
 
     def _vibration(self, phase: Phase, limit: ShaftVibration) -> Verdict:
         """Largest peak to peak over a revolution at the probes; lasting where nothing happens."""
-        a_b, b_c, c_d = limit.at(self.speed)
         window = phase.peak if phase.name.startswith("after") else phase.mean
+        speed = speed_in(self.record, window)
+        a_b, b_c, c_d = limit.at(speed)
         inside = window.mask(self.time)
         journal = in_housing(self.record).sel(bearing=self.name)
         motion = journal.transpose("axis", "time").values[:, inside]
         step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
-        turn = round(2.0 * math.pi / abs(self.speed) / step) + 1
+        turn = round(2.0 * math.pi / speed / step) + 1
         swing = running_peak_to_peak(probe_signals(motion, limit.probes), turn)
         probe, at = np.unravel_index(int(np.argmax(swing)), swing.shape)
         value = float(swing[probe, at])

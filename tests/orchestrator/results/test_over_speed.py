@@ -6,7 +6,7 @@ import xarray as xr
 
 from orchestrator.results.figures.over_speed import has_speeds
 from orchestrator.results.journals import changing_speed, probe_spectrum, probe_waterfall
-from orchestrator.results.windows import Window
+from orchestrator.results.windows import Window, speed_in
 
 TIME = np.arange(0.0, 2.0, 1e-3)
 
@@ -21,6 +21,9 @@ def test_a_speed_changes_or_stays():
     falling = with_speed(-157.0 + 20.0 * TIME)
     np.testing.assert_array_equal(changing_speed(falling), np.abs(falling["rotation_speed"].values))
     assert not has_speeds([falling])  # without its revolutions
+    steady = xr.Dataset(coords={"time": TIME}, attrs={"speed": -157.0})
+    assert speed_in(steady, Window(0.0, 1.0)) == 157.0
+    assert speed_in(falling.assign_attrs(speed=-157.0), Window(1.0, 1.5)) == pytest.approx(132.0, abs=0.02)
 
 
 @pytest.mark.parametrize(("stride", "drawn"), [(1, True), (30, False)])
