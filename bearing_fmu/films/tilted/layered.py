@@ -150,11 +150,11 @@ def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
 
 @inner_kernel
 def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> float:
-    """Jacobian, transposed as the solver wants it, and the residual; returns the largest one."""
+    """Jacobian, transposed as the solver wants it, and the residual; returns its norm."""
     film = layered.film
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
     width = film.coupling.shape[0] // m
-    block, soft, largest = n * width, layered.constants[2], 0.0
+    block, soft, square = n * width, layered.constants[2], 0.0
     from_here = UPSTREAM if speed >= 0.0 else 1.0 - UPSTREAM
     cos, sin = film.rings[1, COS], film.rings[1, SIN]
     b, sides, pressures = layered.blocks[0], film.sides, film.pressures[0]
@@ -198,5 +198,5 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> 
                 for j in range(n):
                     b[at + j] += film.slopes[q * n + j] * by_gap * flow * soft
         for j in range(n):
-            largest = max(largest, abs(sides[i * width + j]))
-    return largest
+            square += sides[i * width + j] ** 2
+    return np.sqrt(square)

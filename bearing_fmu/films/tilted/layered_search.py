@@ -24,16 +24,18 @@ from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 Floats = NDArray[np.float64]
 
 #: Of the quick search and of the careful one.
-_QUICK, _CAREFUL = 30, 200
+_QUICK, _CAREFUL = 30, 400
 #: Of a step of the pressure: one more would change it by about the square of that, and one more is made.
 _PRECISION = 1e-3
 #: Roughnesses by which a step presses the wall back at most, in either search.
-_STEPS = (3.0, 30.0)
-#: Rate at which the wall gives way at first, over the flow's; what a step changes it by; where it is none.
-_RATE, _FALL, _GROWTH, _NONE = 1.0, 0.02, 2.0, 1e-2
+_STEPS = (3.0, 300.0)
+#: Rate at which the wall gives way at first, over the flow's, and where it is none.
+_RATE, _NONE = 1.0, 1e-2
+#: What a step may change the rate by: falls of the quick search and of the careful one, growth.
+_FALLS, _GROWTH = (0.02, 0.2), 2.0
 #: Of a careful step: misfit of its linear equations over the residual at which it is taken back, and that
 #: at which the rate stays; what the rate rises by, and from where at least, if it is taken back.
-_BACK, _WANTED, _RISE, _LEAST = 1.0, 0.25, 6.0, 0.03
+_BACK, _WANTED, _RISE, _LEAST = 1.0, 0.25, 4.0, 0.03
 
 
 @inner_kernel
@@ -75,13 +77,13 @@ def _misfit(layered: LayeredFilm, rate: float) -> float:
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
-    scale, largest = 4.0 * np.pi / m * rate * layered.constants[2], 0.0
+    scale, square = 4.0 * np.pi / m * rate * layered.constants[2], 0.0
     for j in range(n):
         for i in range(m):
             at = i * width + j
             held = scale * film.weights[j] * film.rings[0, METRIC, i]
-            largest = max(largest, abs(film.sides[at] - held * (film.pressures[0, j, i] - layered.kept[at])))
-    return largest
+            square += (film.sides[at] - held * (film.pressures[0, j, i] - layered.kept[at])) ** 2
+    return np.sqrt(square)
 
 
 @inner_kernel
@@ -120,9 +122,9 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
                 rate, fresh = _RISE * max(rate, _LEAST), True
                 film.sides[: m * width] = layered.kept
                 continue
-            rate *= min(max(misfit / _WANTED, _FALL), _GROWTH)
+            rate *= min(max(misfit / _WANTED, _FALLS[1]), _GROWTH)
         elif not fresh and before > 0.0:
-            rate *= min(max(residual / before, _FALL), _GROWTH)
+            rate *= min(max(residual / before, _FALLS[0]), _GROWTH)
         before, fresh = max(residual, 1e-300), False
         _resist(layered, rate * flow)
         if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
