@@ -25,6 +25,13 @@ same folders; faults and what happens in them: [README.md](README.md).
 | what | case | source | agrees within | test |
 |---|---|---|---|---|
 """
+PICTURES = {
+    "whirl": "Whirl of two published rotors: lines from the code, circles as published.",
+    "bearing": "Plain bearings: lines V2 at 96 x 12, circles an independent converged solution where "
+    "Butenschoen has his.",
+    "beam": "Free frequencies of a thick beam converge with the square of the elements' length.",
+}
+"""Figures and their words; each is a function of `tests.published_figures`."""
 PARTS = {"rotor_fmu": "shaft", "bearing_fmu": "film and contact", "orchestrator": "run and judgement"}
 
 
@@ -70,8 +77,18 @@ def cases() -> Iterator[Case]:
 def page() -> str:
     """The text of the page."""
     found = sorted(cases(), key=lambda case: list(PARTS).index(case.file.relative_to(PAGE.parent).parts[0]))
-    return _HEAD + "".join(f"{case.row}\n" for case in found)
+    return _HEAD + "".join(f"{case.row}\n" for case in found) + "".join(_pictures())
+
+
+def _pictures() -> Iterator[str]:
+    """Figures below the table; `tests.published_figures` draws them."""
+    yield "\n## Figures\n"
+    for name, text in PICTURES.items():
+        yield f"\n![{text}](verification/{name}.png)\n\n{text}\n"
 
 
 if __name__ == "__main__":
+    from tests.published_figures import write_all
+
     PAGE.write_text(page(), encoding="utf-8")
+    write_all()
