@@ -8,6 +8,7 @@ import pytest
 import scipy.linalg as sl
 from scipy.integrate import solve_ivp
 
+from bearing_fmu.film import make_film
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration.drive import Braking, Drive, course_of, torque_of
 from rotor_fmu.vibration.prepared import prepare_shaft
@@ -15,6 +16,7 @@ from rotor_fmu.vibration.spin import Spin
 from rotor_fmu.vibration.state_space import ModalCoordinates
 from rotor_fmu.vibration.unbalance import Loss, losses_of
 from rotor_fmu.vibration.whirl_coordinates import whirl_coordinates
+from tests.bearing_fmu.bearings import plain, respond
 from tests.rotor_fmu.small_shafts import (
     gyroscopic,
     linear_bearings,
@@ -246,6 +248,24 @@ def test_a_free_rotor_obeys_its_torques():
         Drive().is_free(True)
     with pytest.raises(ValueError, match="a torque in N m"):
         torque_of("[[1]]")
+
+
+def test_a_free_rotor_in_centred_journals_slows_down_after_petroff():
+    """W0 exp(-c t / I) with c = 2 pi eta R^3 b / C, first order in the step; what it loses is friction."""
+    p, speed, inertia, still = plain(0.8), 150.0, 20.0, (0j, 0j)
+    film = make_film("v3", p)
+    torque = 2.0 * np.pi * p.viscosity * p.radius**3 * p.width / p.clearance
+    total, spin, errors = 0.5 * inertia / torque, Spin(unbalance([0.0], [0.0]), inertia), []
+    for steps in (400, 800):
+        now, lost, step = speed, 0.0, total / steps
+        for _ in range(steps):
+            power = respond(film, [0, 0, 0, 0], speed=now).friction_power
+            now = spin.speed_after((0.0, now), step, still, Braking(0.0, power, 0.0), 0.0)
+            lost += power * step
+        errors.append(now / (speed * math.exp(-0.5)) - 1.0)
+        assert lost == pytest.approx(0.5 * inertia * (speed**2 - now**2), rel=1e-12)
+    assert errors[0] / errors[1] == pytest.approx(2.0, rel=5e-3)
+    assert 2.0 * errors[1] - errors[0] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_free_unbalanced_rotor_against_its_equations_of_motion():
