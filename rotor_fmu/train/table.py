@@ -60,13 +60,14 @@ def read_table(
     TableError
         When the file or its header cannot be read.
     """
-    content = [(n, cells) for n, cells in _cells(_text(path)) if any(cells)]
+    read = [line for line in _cells(_text(path)) if any(line[1])]
+    content = [(n, cells) for n, cells, _ in read]
     if not content:
         raise TableError(f"no header; needed is a row with {', '.join(required)}")
     header = _header(content[0][1], columns, required)
     rows: list[Row] = []
     problems: list[str] = []
-    commas = _decimal_comma(content[1:], header, columns)
+    commas = read[0][2] != "," and _decimal_comma(content[1:], header, columns)
     for number, cells in content[1:]:
         found, wrong = _row(cells, header, columns, commas)
         problems += (f"row {number}: {text}" for text in wrong)
@@ -91,8 +92,8 @@ def _text(path: Path) -> str:
         raise TableError(f"not readable: {error}; save it as CSV UTF-8") from None
 
 
-def _cells(text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield number and cells of each line that is no comment, and hold the separator of the first of them."""
+def _cells(text: str) -> Iterator[tuple[int, list[str], str]]:
+    """Yield number, cells and separator of each line that is no comment; the first decides on that."""
     separator = ""
     for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1):
         if not line.strip() or line.lstrip(' "').startswith("#"):
@@ -102,9 +103,10 @@ def _cells(text: str) -> Iterator[tuple[int, list[str]]]:
         if told:
             continue
         try:
-            yield number, [cell.strip() for cell in next(csv.reader([line], delimiter=separator), [])]
+            cells = next(csv.reader([line], delimiter=separator), [])
         except csv.Error:
-            yield number, [line]
+            cells = [line]
+        yield number, [cell.strip() for cell in cells], separator
 
 
 def _header(cells: Sequence[str], columns: Mapping[str, str], required: Sequence[str]) -> list[_Column]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rotor_fmu.train.file import DATA, load_train
+from rotor_fmu.train.table import read_table
 from rotor_fmu.train.train import Ring
 from rotor_fmu.train.writer import write_train
 from tests.faults import fault
@@ -89,6 +90,14 @@ def test_a_table_as_spreadsheets_write_it(folder, kind, encoding):
 def test_a_table_that_cannot_be_read(folder, old, new, words):
     edit(folder, "shaft.csv", (old, new))
     assert any(words in line for line in problems(folder)), problems(folder)
+
+
+def test_a_comma_between_columns_is_none_in_numbers(folder, tmp_path):
+    """Thousands of a spreadsheet, 1,300 mm, are not 1.3 mm."""
+    table = tmp_path / "shaft.csv"
+    table.write_text('length [mm],outer diameter [mm]\n200,"1,300"\n300,90\n')
+    rows, wrong = read_table(table, {"length": "m", "outer_diameter": "m"}, ["length", "outer_diameter"])
+    assert not wrong and rows[0][1]["outer_diameter"] == "1,300" and rows[1][1]["outer_diameter"] == 0.09
 
 
 def test_a_table_in_another_encoding_is_named(folder):
