@@ -1,4 +1,4 @@
-"""Tilting pads through a run: resumed, on two threads and in every coupling, the same record."""
+"""Films with memory through a run: resumed, on two threads and in every coupling, the same record."""
 
 from __future__ import annotations
 
@@ -14,16 +14,19 @@ from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import Checkpoints
 from orchestrator.scenario.file import load_scenario, train_of
 
-pytestmark = pytest.mark.slow  # five runs
-EXAMPLE = Path(__file__).parents[2] / "examples" / "tilting" / "loss.toml"
+pytestmark = pytest.mark.slow  # five runs each, on kernels that only few tests need
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SHORT = {
-    "depth": "v2",
-    "tolerance": 1e-3,  # so steps are taken back
     "end": 8e-3,
     "event": {"time": 2.03e-3},
     "record": {"interval": 1e-4},
     "film": {"columns": 32, "rows": 4},
 }
+FILMS = [
+    pytest.param("tilting", {"depth": "v2"}, id="tilting pads"),
+    pytest.param("lemon", {"depth": "v1", "boundary": "jfo"}, id="jfo"),
+    pytest.param("oil", {"depth": "v3", "temperature": "followed"}, id="oil that warms"),
+]
 
 
 class Killed(BaseException):
@@ -35,13 +38,16 @@ def killed(stage, simulated):
         raise Killed
 
 
-def scenario_of(**changes):
-    return load_scenario(str(EXAMPLE), SHORT | changes)
+def scenario_of(example, film, **changes):
+    own = {key: film[key] for key in ("boundary", "temperature") if key in film}
+    given, settings = {key: film[key] for key in film if key not in own}, SHORT["film"] | own
+    return load_scenario(str(EXAMPLES / example / "loss.toml"), SHORT | given | {"film": settings} | changes)
 
 
-def test_the_record_is_the_same_however_it_came_about(tmp_path):
-    scenario = scenario_of()
-    build(tmp_path, [train_of(scenario)], ["v2"])
+@pytest.mark.parametrize(("example", "film"), FILMS)
+def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
+    scenario = scenario_of(example, film, tolerance=1e-3)  # so steps are taken back
+    build(tmp_path, [train_of(scenario)], [film["depth"]])
     whole = simulate(scenario, tmp_path, None, Execution(threads=1))
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
@@ -54,6 +60,6 @@ def test_the_record_is_the_same_however_it_came_about(tmp_path):
     assert again.record.identical(whole.record)
     scale = np.abs(whole.record["force"].values).max()
     for coupling in ("newton", "multirate"):
-        other = simulate(scenario_of(coupling=coupling), tmp_path)
+        other = simulate(scenario_of(example, film, coupling=coupling, tolerance=1e-3), tmp_path)
         assert other.outcome.ok, other.message
         assert np.abs(other.record["force"].values - whole.record["force"].values).max() < 0.02 * scale
