@@ -19,10 +19,11 @@ from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.jfo.workspace import JfoFilm
 from bearing_fmu.films.short.short import effective_state
+from bearing_fmu.films.tilted.layered import CLUSTERING as ON_LAYER
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG
-from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.axial import CLUSTERING, axial_basis
 from bearing_fmu.kernels.compiled import kernel
 from bearing_fmu.kernels.grid import COS, SIN
 from bearing_fmu.outputs import INPUTS, OUTPUTS
@@ -183,8 +184,9 @@ def _conserving(film: ConservingFilm, q: Floats, angle: Floats, place: Floats) -
         ring = np.array([np.interp(angle, where, row, period=TURN) for row in solved.net.content])
         nodes = axial_basis(ring.shape[0]).nodes[: ring.shape[0]]
         content = np.array([np.interp(place, nodes, column) for column in ring.T]).T
-        pressure = _between(solved.film.rings[0][:, : where.size], solved.net.pressure, angle, place)
-        pressure[[0, -1]] = solved.net.ends[0]
+        end = float(solved.net.ends[0])  # pressures count from the cavity's
+        ring_at = solved.film.rings[0][:, : where.size]
+        pressure = _between(ring_at, solved.net.pressure - end, angle, place) + end
         p = film.parameters
     finally:
         film.bring_back(space)
@@ -196,11 +198,13 @@ def _pressure(
     film: Any, scales: Any, q: Floats, v: Floats, speed: float, angle: Floats, z: Floats
 ) -> Floats | None:
     """Pressure over the ambient one, in units of the film's, shape (z, angle)."""
+    clustering = CLUSTERING
     if isinstance(film, LayeredFilm):
-        film = film.film
+        gave_way = film.change[8] > 0.0
+        film, clustering = (film.film, ON_LAYER) if gave_way else (film.rigid, CLUSTERING)
     if isinstance(film, TiltedFilm):
         n, m = film.face.shape[1], film.circle.shape[2]
-        return _between(film.rings[0], film.pressures[0, :n, :m], angle, z)
+        return _between(film.rings[0], film.pressures[0, :n, :m], angle, z, clustering)
     if isinstance(film, AlignedFilm):
         return _between(film.rings[0], _both_halves(film), angle, z)
     if isinstance(film, np.ndarray):
@@ -208,9 +212,9 @@ def _pressure(
     return None
 
 
-def _between(ring: Floats, nodal: Floats, angle: Floats, z: Floats) -> Floats:
+def _between(ring: Floats, nodal: Floats, angle: Floats, z: Floats, clustering: float = CLUSTERING) -> Floats:
     """Between the nodes: along the axis the film's own functions, around the circumference straight."""
-    along = axial_basis(nodal.shape[0]).interpolation(z[1:-1]) @ nodal
+    along = axial_basis(nodal.shape[0], clustering).interpolation(z[1:-1]) @ nodal
     where = np.arctan2(ring[SIN], ring[COS])
     rows = [np.interp(angle, where, row, period=TURN) for row in along]
     return np.vstack([np.zeros(angle.size), *rows, np.zeros(angle.size)])

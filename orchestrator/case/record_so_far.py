@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -64,7 +65,10 @@ class RecordSoFar:
         fresh = path.with_suffix(f".{os.getpid()}.part")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            fresh.write_bytes(block(data.assign_attrs(status=RUNNING)))
+            with fresh.open("wb") as file:
+                file.write(block(data.assign_attrs(status=RUNNING)))
+                file.flush()
+                os.fsync(file.fileno())  # a checkpoint that counts its rows comes behind it
             fresh.replace(path)
         except OSError as error:
             self.warn(f"{path}: not written, the next file has its instants: {error}")
@@ -78,4 +82,5 @@ class RecordSoFar:
         """Remove files of rows that the run has not come to, of another run or another try."""
         for path in blocks_in(self.folder):
             if path.name >= block_name(row):
-                path.unlink(missing_ok=True)
+                with suppress(OSError):  # what is read again is overwritten, or of an older run
+                    path.unlink(missing_ok=True)

@@ -30,7 +30,7 @@ from orchestrator.observers.checkpoint_meta import Meta, problem_of
 Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
-_VERSION = 2
+VERSION = 3
 
 
 class Keeper(Protocol):
@@ -187,7 +187,7 @@ class Checkpoints:
         if not last and time < self._last + self.every * (1.0 - 5e-7):
             return
         meta = {
-            "version": _VERSION,
+            "version": VERSION,
             "step": step,
             "time": time,
             "level": stepper.level,
@@ -264,8 +264,8 @@ def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
 
 def half_written(folder: Path) -> list[Path]:
     """Return the files of a checkpoint's folder that killed processes left in the middle of writing."""
-    name = re.compile(re.escape(FILE) + r"\.\d+\.part")
-    return [path for path in sorted(folder.glob(f"{FILE}.*")) if name.fullmatch(path.name)]
+    name = re.compile(rf"(?:{re.escape(FILE)}|record-\d+)\.\d+\.part")
+    return [path for path in sorted(folder.glob("*.part")) if name.fullmatch(path.name)]
 
 
 def read(folder: Path) -> Checkpoint:
@@ -287,8 +287,8 @@ def read(folder: Path) -> Checkpoint:
     except Exception as error:  # zipfile, numpy and json have their own each
         reason = " ".join(str(error).split())
         raise CheckpointError(f"{path}: not a readable checkpoint: {reason}") from None
-    if version != _VERSION:
-        raise CheckpointError(f"{path}: of version {version!r}; this program reads version {_VERSION}")
+    if version != VERSION:
+        raise CheckpointError(f"{path}: of version {version!r}; this program reads version {VERSION}")
     try:
         Meta.model_validate(meta)
     except ValidationError as error:

@@ -130,9 +130,17 @@ class _Open:
         self.moved += moved
         self.time += step
 
+    @property
+    def sums(self) -> dict[str, Array]:
+        """All of them, by name."""
+        return {
+            "open.time": self.time, "open.received": self.received,
+            "open.moved": self.moved, "open.moment": self.moment,
+        }  # fmt: skip
+
     def close(self, evaluated: NDArray[np.bool_]) -> None:
         """Begin anew at these bearings."""
-        for sums in (self.time, self.received, self.moved, self.moment):
+        for sums in self.sums.values():
             sums[evaluated] = 0.0
 
 
@@ -198,7 +206,7 @@ class Ledger(Observer):
         self._before = (now[0], now[1], np.where(evaluated[:, None], now[2], before[2]))
 
     def balance(self) -> Balance:
-        """Return the ledger up to now."""
+        """Return the ledger up to now; films between two evaluations give what the rotor received."""
         self._block.get()
         energies, works = np.split(self._rotor - self._first, [len(port.ENERGY)])
         of_vibration, given = (part[: port.VIBRATION] for part in (energies, works))
@@ -208,19 +216,24 @@ class Ledger(Observer):
             rotation = Rotation(float(energies[port.VIBRATION]), drive, windage, self._friction.copy())
         bearings, unbalance, damping = given.tolist()
         stored = float(of_vibration.sum())
-        return Balance(self._works.copy(), stored, bearings, unbalance, damping, rotation)
+        films = self._works.copy()
+        films[:, (0, 2)] += self._open.received[:, None]
+        films[:, 3] += np.abs(self._open.received)
+        return Balance(films, stored, bearings, unbalance, damping, rotation)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
         before = {f"before{k}": values for k, values in enumerate(self._before)}
         friction = {"friction": self._friction, "power": self._power}
-        return {"works": self._works, "first": self._first, **friction, **before}
+        return {"works": self._works, "first": self._first, **friction, **before, **self._open.sums}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
         self._works[:], self._first[:] = arrays["works"], arrays["first"]
         self._friction[:], self._power = arrays["friction"], arrays["power"]
         self._before = (arrays["before0"], arrays["before1"], arrays["before2"])
+        for name, sums in self._open.sums.items():
+            sums[:] = arrays[name]
 
     def _values(self) -> tuple[Array, Array, Array]:
         """Journals in their housings, wrenches, and their parts from contact."""

@@ -4,7 +4,8 @@ Between two records nothing is lost of the extremes: the largest forces and the 
 gaps of every macro step enter the next record.  The largest values of the whole run are
 kept besides, with their instants.
 
-With many rates a record may fall between two evaluations of a bearing.  It then waits for the next one, and
+With many rates a record may fall between two evaluations of a bearing.  It then waits for the next one (of a
+run that breaks off, those that still wait are not kept: a twentieth of a revolution at most), and
 is complete when all its bearings are (`orchestrator.observers.between`).
 """
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import h5netcdf
 import numpy as np
@@ -95,9 +96,12 @@ def block(data: xr.Dataset) -> bytes:
 
 
 def _read_block(path: Path) -> xr.Dataset:
-    with np.load(path) as stored:
-        words = json.loads(str(stored[""]))
-        found = {name: (dims, stored[name], attrs) for name, (dims, attrs) in words["variables"].items()}
+    try:
+        with np.load(path) as stored:
+            words = json.loads(str(stored[""]))
+            found = {name: (dims, stored[name], attrs) for name, (dims, attrs) in words["variables"].items()}
+    except (BadZipFile, EOFError) as error:  # cut off by a power failure, say
+        raise ValueError(f"{path.name}: {error}") from None
     return xr.Dataset(found, attrs=words["attributes"]).set_coords(words["coordinates"])
 
 

@@ -87,12 +87,12 @@ def _film(record: xr.Dataset, bearing: str, index: int, columns: int, rows: int)
     turn = 2.0 * np.pi / abs(float(record.attrs["speed"]))
     first = max(0, index - round(LED * turn / step)) if step > 0.0 else index
     depth = str(record["depth"].sel(bearing=bearing).values)
-    values = parameters_at(record, bearing, float(time[index]))
-    states = film_states(record, bearing, first, index)
-    tilts = None
-    if "pad_tilt" in record and (pads := port.pads_in(str(values[port.BEARING_KEYS["bore"]]))):
-        tilts = record["pad_tilt"].sel(bearing=bearing).transpose("time", "pad").values[index, :pads]
     try:
+        values = parameters_at(record, bearing, float(time[index]))
+        states = film_states(record, bearing, first, index)
+        tilts = None
+        if "pad_tilt" in record and (pads := port.pads_in(str(values[port.BEARING_KEYS["bore"]]))):
+            tilts = record["pad_tilt"].sel(bearing=bearing).transpose("time", "pad").values[index, :pads]
         return film_map(depth, values, *states, columns=columns, rows=rows, step=step, tilts=tilts)
     except (ArithmeticError, KeyError, ValueError):  # of another version, or beyond what a film answers
         return None

@@ -46,6 +46,11 @@ def loads_at_heights(train: Train, gravity: float) -> Array:
     -------
     ndarray, (n_b,)
         As from `rotor_fmu.shaft.statics.target_loads`.
+
+    Raises
+    ------
+    ValueError
+        When no balance is found.
     """
     seats = train.bearings
     heights = np.array([seat.height or 0.0 for seat in seats])
@@ -62,6 +67,10 @@ def loads_at_heights(train: Train, gravity: float) -> Array:
         at = at + step * min(1.0, (room / np.maximum(np.abs(step), 1e-300)).min())
         if np.abs(step).max() < TOLERANCE:
             break
+    else:
+        raise ValueError(
+            f"train {train.name}: no static balance of bearings at these heights; check them and clearances"
+        )
     return np.asarray(load + missing)
 
 

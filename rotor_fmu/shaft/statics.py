@@ -42,7 +42,7 @@ def target_loads(train: Train, gravity: float | None = None) -> Array:
         If the loads given leave no balance.
     """
     gravity = train.weight if gravity is None else gravity
-    if any(seat.height is not None for seat in train.bearings):
+    if len(train.bearings) > 1 and any(seat.height is not None for seat in train.bearings):
         return loads_at_heights(train, gravity)
     z = np.array(train.z)
     seats, joints = train.bearings, train.couplings

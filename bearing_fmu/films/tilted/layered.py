@@ -56,7 +56,7 @@ class LayeredFilm(NamedTuple):
     work: Floats  #: (2 n n' + 4 n',)
     usual: Floats  #: (RESULTS + CONTACT_RESULTS,) work space of two solutions
     stiff: Floats  #: (RESULTS,) work space, of the rigid bore
-    change: Floats  #: (8,) how far the layer takes part, by q and v
+    change: Floats  #: (9,) how far the layer takes part, by q and v; the last: how far it did, 0 to 1
 
 
 def layered_film(
@@ -83,7 +83,7 @@ def layered_film(
         work=np.zeros(2 * n * width + 4 * width),
         usual=np.zeros(RESULTS + CONTACT_RESULTS),
         stiff=np.zeros(RESULTS),
-        change=np.zeros(8),
+        change=np.zeros(9),
     )
 
 

@@ -60,7 +60,7 @@ def _gives_way(layered: LayeredFilm, q: Floats, gap: float, result: Floats, chan
         change[k], change[4 + k] = scale * slope_q, scale * slope_v
     z = 1.0 if np.hypot(q[0] + q[3], q[1] - q[2]) > np.hypot(q[0] - q[3], q[1] + q[2]) else -1.0
     ex, ey = q[0] + z * q[3], q[1] - z * q[2]
-    e = np.hypot(ex, ey)
+    e = max(np.hypot(ex, ey), 1e-12)  # in the middle no direction is the nearer one
     for k in range(8):
         turn = -(ex if k == 0 else ey if k == 1 else -z * ey if k == 2 else z * ex) / e if k < 4 else 0.0
         by_m = by_measure * (change[k] - 1.5 * measure / gap * turn)
@@ -114,11 +114,13 @@ def _solve_on_layer(
     film: LayeredFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats, contact: Floats
 ) -> int:
     gap, share = least_gap(None, q)[0], 1.0
+    film.change[8] = share
     if gap > _CLOSE[0] * scales.sigma:
         status = solve_tilted(film.rigid, None, scales, q, v, speed, result)
         if status != OK:
             return status
         share = _gives_way(film, q, gap, result, film.change)
+        film.change[8] = share
         if share == 0.0:
             return OK
         film.stiff[:] = result

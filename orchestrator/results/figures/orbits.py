@@ -83,7 +83,7 @@ def _orbit(axes: Axes, record: xr.Dataset, bearing: str, reach: float) -> None:
     motion = journal_motion(record, bearing) * MICRO
     room = room_of(record, bearing)
     if room is not None:
-        axes.fill(*(room * MICRO), color="#F6F3EA", zorder=0)
+        axes.fill(*(room[:, np.isfinite(room).all(axis=0)] * MICRO), color="#F6F3EA", zorder=0)
         axes.plot(*(room * MICRO), color="#222222", linewidth=1.2, label="clearance", zorder=1)
     found = phases(record)
     turn = 2.0 * math.pi / abs(float(record.attrs["speed"]))

@@ -138,7 +138,7 @@ def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
 def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     path = tmp_path / checkpoint.FILE
     meta = {"step": 1, "level": 0, "counts": {}, "evaluations": [], "fmus": [], "about": {}}
-    checkpoint.write(path, {"version": 2, "time": 1.0} | meta, {"x": np.arange(3.0)})
+    checkpoint.write(path, {"version": checkpoint.VERSION, "time": 1.0} | meta, {"x": np.arange(3.0)})
     before = path.read_bytes()
 
     def fail(*_args, **_kwargs):
@@ -146,7 +146,7 @@ def test_a_write_that_fails_leaves_the_last_checkpoint(tmp_path, monkeypatch):
 
     monkeypatch.setattr(np, "savez", fail)
     with pytest.raises(OSError, match="disk full"):
-        checkpoint.write(path, {"version": 2, "about": {}, "time": 2.0}, {})
+        checkpoint.write(path, {"version": checkpoint.VERSION, "about": {}, "time": 2.0}, {})
     assert path.read_bytes() == before
     assert checkpoint.read(tmp_path).time == 1.0
 

@@ -154,7 +154,12 @@ def explore(
 ) -> None:
     """Look at designs by number and append what is found; numbers that the table has are left out."""
     lines = read(path)
-    centre = next((values_of(line) for line in lines if near and line["number"] == near), None)
+    whole = {line["number"]: line for line in lines if not line["near"]}
+    if near and near not in whole:
+        raise OrchestratorError(
+            f"{path}: no design {near!r} was looked at; --around takes a number of the table"
+        )
+    centre = values_of(whole[near]) if near else None
     done = {(line["number"], line["near"]) for line in lines}
     with bench() as place:
         for number in numbers:
@@ -188,7 +193,10 @@ def main() -> None:
     parser.add_argument("--behind", type=float, default=0.9, help="time behind the fracture in s")
     given = parser.parse_args()
     numbers = range(given.first, given.first + given.count)
-    explore(given.table, numbers, TurbineDesign(), Means(given.behind, elsewhere="table"), given.around)
+    try:
+        explore(given.table, numbers, TurbineDesign(), Means(given.behind, elsewhere="table"), given.around)
+    except OrchestratorError as error:
+        parser.error(str(error))
 
 
 if __name__ == "__main__":
