@@ -156,9 +156,7 @@ def explore(
     lines = read(path)
     whole = {line["number"]: line for line in lines if not line["near"]}
     if near and near not in whole:
-        raise OrchestratorError(
-            f"{path}: no design {near!r} was looked at; --around takes a number of the table"
-        )
+        raise OrchestratorError(f"{path}: no design {near!r}; --around takes a number of the table")
     centre = values_of(whole[near]) if near else None
     done = {(line["number"], line["near"]) for line in lines}
     with bench() as place:
