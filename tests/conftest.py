@@ -5,11 +5,10 @@ import os
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")  # before numpy is loaded; for processes that tests start, too
 
-import signal  # noqa: E402
 import subprocess  # noqa: E402
 import sys  # noqa: E402
 from collections import Counter  # noqa: E402
-from contextlib import contextmanager, suppress  # noqa: E402
+from contextlib import suppress  # noqa: E402
 from importlib import import_module  # noqa: E402
 from pathlib import Path  # noqa: E402
 from pkgutil import walk_packages  # noqa: E402
@@ -107,53 +106,6 @@ def pytest_collection_modifyitems(config, items):
         ranks.setdefault(name, (len(LONG), -count))
     order = sorted(range(len(items)), key=lambda index: (ranks[files[index]], files[index]))
     items[:] = [items[index] for index in order]
-
-
-COUNTED_FOR, THEN_FOR, OF_EVERY = 2.0, 0.1, 0.5
-"""Processor time in s: lines of a test, and of what is set up for it, count at first, then now and then.
-
-Most lines run early, and then many times over; Python 3.11 takes a multiple of the time where it counts them.
-"""
-
-
-@contextmanager
-def _counted_at_first(item):
-    counting = coverage.Coverage.current() if coverage else None
-    if counting is None or sys.gettrace() is None or item.get_closest_marker("no_cover"):
-        yield  # nothing is counted, or without tracing
-        return
-    counted = True
-
-    def turn(*_):
-        nonlocal counted
-        (counting.stop if counted else counting.start)()
-        counted = not counted
-        signal.setitimer(signal.ITIMER_VIRTUAL, THEN_FOR if counted else OF_EVERY - THEN_FOR)
-
-    before = signal.signal(signal.SIGVTALRM, turn)
-    signal.siginterrupt(signal.SIGVTALRM, False)
-    signal.setitimer(signal.ITIMER_VIRTUAL, COUNTED_FOR)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-        signal.signal(signal.SIGVTALRM, before)
-        if not counted:
-            counting.start()
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_setup(item):
-    """Count lines of fixtures at first."""
-    with _counted_at_first(item):
-        return (yield)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item):
-    """Count lines of a test at first."""
-    with _counted_at_first(item):
-        return (yield)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -103,15 +103,18 @@ def test_every_coupling_converges_to_the_holistic_model(name, fmus, reference):
 
 
 def test_many_rates_are_of_second_order_in_the_evaluations(fmus, reference):
-    """Against the tolerance the order shows less clearly: intervals go up and down by the factor two."""
+    """Against the tolerance the order shows less clearly: intervals go up and down by the factor two.
+
+    At ten times the coarsest a bearing is evaluated some thirty times in all, which has no order yet.
+    """
     errors, evaluations = [], []
-    for tolerance in (1e-3, 1e-3 / 16, 1e-3 / 256):
+    for tolerance in (1e-3 / 16, 1e-3 / 256, 1e-3 / 4096):
         result = simulate(small(coupling="multirate", tolerance=tolerance), fmus)
         assert result.outcome is Outcome.FINISHED, result.message
         errors.append(force_error(result.record["force"].values, reference))
         evaluations.append(result.evaluations)
     assert np.polyfit(np.log(evaluations), np.log(errors), 1)[0] == pytest.approx(-2.0, abs=0.1)
-    assert errors[-1] < 2e-4
+    assert errors[-1] < 2e-5
 
 
 @pytest.mark.parametrize("name", STEPS)
