@@ -68,6 +68,10 @@ def run(request: ReportRequest, console: Console) -> int:
         return _of_a_study(request, console)
     if request.file.is_dir():
         raise ReportError(f"{request.file}: is a folder; --out takes the file of the page, such as {FILE}")
+    if request.file.suffix.casefold() == ".pdf":
+        raise ReportError(
+            f"{request.file}: --out takes the file of the page, such as {FILE}; --pdf prints beside it"
+        )
     limits = None if request.limits is None else load_limits(request.limits)
     results = load_results(request.results, limits)
     path = request.file

@@ -50,8 +50,8 @@ def spectra(results: Sequence[Result]) -> Iterator[Panel]:
         traces: list[Trace] = []
         shown = layout(
             showlegend=True,
-            legend={"orientation": "h", "x": 0.8, "xanchor": "right", "y": 1.0, "yanchor": "bottom"},
-            margin={"l": 62, "r": 14, "t": 46, "b": 44},
+            legend={"orientation": "h", "x": 0.8, "xanchor": "right", "y": 1.07, "yanchor": "bottom"},
+            margin={"l": 62, "r": 14, "t": 62, "b": 44},
             **order_lines(having[0], HIGHEST),
         )
         titles = [f"{math.degrees(angle):.0f}° [µm]" for angle in angles]

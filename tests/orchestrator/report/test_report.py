@@ -236,6 +236,7 @@ def test_the_command_writes_the_page_into_the_folder_of_the_run(folder):
         (["{tmp}/run/record.csv"], "{tmp}/run/record.csv: no record: "),
         (["{tmp}/run", "--bearing", "X"], "--bearing X: no such bearing; allowed are LP1-rear, "),
         (["{tmp}/run", "--out", "{tmp}"], "{tmp}: is a folder; --out takes the file of the page"),
+        (["{tmp}/run", "--out", "{tmp}/a.pdf"], "{tmp}/a.pdf: --out takes the file of the page, such as rep"),
         (
             ["{tmp}/run", "--limits", "{tmp}/no.toml"],
             "{tmp}/no.toml: not readable: No such file or directory",
