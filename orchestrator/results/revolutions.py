@@ -40,8 +40,8 @@ def with_revolutions(record: xr.Dataset, kept: Revolutions) -> xr.Dataset:
         )  # fmt: skip
     coordinates = {
         "revolution": ("revolution", kept.times.copy(), _words("s", "end of the revolution")),
-        "order": ("order", list(ORDERS)),
-        "part": ("part", ["real", "imaginary"]),
+        "order": ("order", list(ORDERS), {"long_name": "order of the rotational speed", "units": "1"}),
+        "part": ("part", ["real", "imaginary"], {"long_name": "part of the complex amplitude"}),
     }
     return record.assign(variables).assign_coords(coordinates)
 
