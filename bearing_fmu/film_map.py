@@ -118,17 +118,16 @@ def film_map(
     if isinstance(film, TiltingFilm):
         return _of_pads(film, inputs[-1], angle, place, None if tilts is None else np.asarray(tilts, float))
     if isinstance(film, ConservingFilm):
-        _led(film, inputs, step)
+        _lead(film, inputs, step)
         return _conserving(film, positions[-1], angle, place)
     return _solved(film, inputs[-1], film.offset, angle, place)
 
 
-def _led(film: Film, inputs: Floats, step: float) -> Floats:
-    """State of a film with memory behind its samples."""
+def _lead(film: Film, inputs: Floats, step: float) -> None:
+    """Lead a film with memory along its samples; its work space holds what it came to."""
     state = film.rest()
     for k, row in enumerate(inputs):
         _, state = film.evaluate(state, row, step if k else 0.0)
-    return state
 
 
 def _solved(film: Film, inputs: Floats, offset: Floats, angle: Floats, place: Floats) -> FilmMap | None:

@@ -136,10 +136,6 @@ def supported_table(case: LinearCase, data: xr.Dataset) -> Table:
     largest = [float(errors.sel(shaft=name).max()) for name in methods]
     table.add_section()
     table.add_row("all", "", "", "", *(error_text(error, TOLERANCE) for error in largest))
-    table.caption = " ".join(
-        [
-            COLUMNS_EXPLAINED,
-            *filter(None, [data.attrs.get("missing") and f"Left out: {data.attrs['missing']}."]),
-        ]
-    )
+    missing = data.attrs.get("missing")
+    table.caption = f"{COLUMNS_EXPLAINED} Left out: {missing}." if missing else COLUMNS_EXPLAINED
     return table

@@ -254,6 +254,13 @@ class System:
             unit.close()
 
 
+def law_wrenches(laws: Array, motion: Array) -> Array:
+    """F0 - K q - C v of laws (bearings, 36) at the motion of journals (bearings, 8), (bearings, 4)."""
+    tangents = laws[:, 4:].reshape(-1, 2, 4, 4)
+    reaction = np.matmul(tangents, motion.reshape(-1, 2, 4, 1)).sum(axis=1)[..., 0]
+    return np.asarray(laws[:, :4] - reaction)
+
+
 def port_connections(
     rotor: str, bearings: Sequence[str], wiring: Wiring, *, moving: bool = False, turning: bool = False
 ) -> Iterator[Connection]:

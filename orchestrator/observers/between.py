@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.master.system import RESPONSE
+from orchestrator.master.system import RESPONSE, law_wrenches
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -33,7 +33,7 @@ WORDS = (
 _ROUND = 0.05
 """Share of the clearance by which a least gap may differ from that of a round bore and still follow it."""
 
-_FORCE, _F0, _TANGENT = slice(0, 4), slice(4, 8), slice(8, 40)
+_FORCE, _LAW = slice(0, 4), slice(4, 40)
 _NEARER = RESPONSE["h_min_z"]
 
 
@@ -146,8 +146,9 @@ class Between:
         """
         before, after, s = self._values[bearing], newest[bearing], share[:, None]
         result = before + s * (after - before)
-        missed = after[:, _FORCE] - _law(before, newest_motion[bearing])
-        result[:, _FORCE] = _law(before, motion) + s**2 * missed
+        law = before[:, _LAW]
+        missed = after[:, _FORCE] - law_wrenches(law, newest_motion[bearing])
+        result[:, _FORCE] = law_wrenches(law, motion) + s**2 * missed
         result[:, _NEARER] = np.where(share < 0.5, before[:, _NEARER], after[:, _NEARER])
         ways = [self._bores.gaps(bearing, x) for x in (self._motion[bearing], motion, newest_motion[bearing])]
         over, centre = (np.array(kind) for kind in zip(*ways, strict=True))
@@ -172,10 +173,3 @@ def _follow(
     off = before[:, at] - way[0], after[:, at] - way[2]
     follows = np.maximum(np.abs(off[0]), np.abs(off[1])) <= _ROUND * size
     result[:, at] = np.where(follows, way[1] + off[0] + share * (off[1] - off[0]), result[:, at])
-
-
-def _law(values: Array, motion: Array) -> Array:
-    """Wrenches of laws at motions, (m, 4)."""
-    squares = values[:, _TANGENT].reshape(-1, 2, 4, 4)
-    reaction = np.matmul(squares, motion.reshape(-1, 2, 4, 1)).sum(axis=1)[..., 0]
-    return np.asarray(values[:, _F0] - reaction)

@@ -35,7 +35,7 @@ from orchestrator.fmi.block import Block
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
-from orchestrator.master.system import RESPONSE, System
+from orchestrator.master.system import RESPONSE, System, law_wrenches
 
 Array = NDArray[np.float64]
 
@@ -245,7 +245,4 @@ class Ledger(Observer):
 
     def _law(self, journals: Array) -> Array:
         """Wrenches of the laws that the rotor used last."""
-        laws = self._system.laws
-        tangent = laws[:, 4:].reshape(-1, 2, 4, 4)
-        motion = journals.reshape(-1, 2, 4, 1)
-        return laws[:, :4] - np.matmul(tangent, motion).sum(axis=1)[..., 0]
+        return law_wrenches(self._system.laws, journals)

@@ -7,10 +7,9 @@ from fmus import port
 from orchestrator.fmi.file import FmuFile
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.rollback import forgets
+from tests.fmus.orbit import STEP, Orbit
 
 OUTPUTS = [v.name for v in port.BEARING_OUTPUTS]
-INPUTS = [v.name for v in port.BEARING_INPUTS]
-STEP = 1e-4
 pytestmark = pytest.mark.slow  # the kernel compiles for a minute
 BEARING = {
     "film.boundary": "jfo",
@@ -20,24 +19,8 @@ BEARING = {
 }
 
 
-def place(k: int) -> dict[str, float]:
-    """Inputs of a journal on an orbit, tilting, at step k."""
-    t, inputs = k * STEP, np.zeros(17)
-    turn, swing = 300.0 * t, 1e-4
-    inputs[:2] = 2e-4 + swing * np.cos(turn), -4e-4 + swing * np.sin(turn)
-    inputs[4:6] = -300.0 * swing * np.sin(turn), 300.0 * swing * np.cos(turn)
-    inputs[2], inputs[16] = 5e-5, 157.0
-    return dict(zip(INPUTS, inputs, strict=True))
-
-
-def go(unit, first: int, last: int) -> list[list[float]]:
-    """Outputs of some steps."""
-    found = []
-    for k in range(first, last):
-        unit.set(place(k + 1))
-        assert unit.step(k * STEP, STEP), unit.said
-        found.append(unit.get(*OUTPUTS))
-    return found
+ORBIT = Orbit((2e-4, -4e-4), OUTPUTS)
+place, go = ORBIT.place, ORBIT.go
 
 
 @pytest.fixture

@@ -2,37 +2,19 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from fmus import port
 from fmus.port.bore import tilting, to_text
+from tests.fmus.orbit import INPUTS, STEP, Orbit
 
 OUTPUTS = [v.name for v in (*port.BEARING_OUTPUTS, *port.BEARING_DETAILS)]
-INPUTS = [v.name for v in port.BEARING_INPUTS]
-STEP = 1e-4
 FIVE = tilting(5, math.radians(62.0), 0.2, 0.55, 0.1, 1e-10)
 BEARING = {"bore": to_text(FIVE), "film.columns": 40, "film.rows": 4}
 
 
-def place(k: int) -> dict[str, float]:
-    """Inputs of a journal on an orbit at step k, off the middle from the start on."""
-    t, inputs = k * STEP, np.zeros(17)
-    turn, swing = 300.0 * t, 1e-4
-    inputs[:2] = 1e-4 + swing * np.cos(turn), -2e-4 + swing * np.sin(turn)
-    inputs[4:6] = -300.0 * swing * np.sin(turn), 300.0 * swing * np.cos(turn)
-    inputs[2], inputs[16] = 5e-5, 157.0
-    return dict(zip(INPUTS, inputs, strict=True))
-
-
-def go(unit, first: int, last: int) -> list[list[float]]:
-    """Outputs of some steps."""
-    found = []
-    for k in range(first, last):
-        unit.set(place(k + 1))
-        assert unit.step(k * STEP, STEP), unit.said
-        found.append(unit.get(*OUTPUTS))
-    return found
+ORBIT = Orbit((1e-4, -2e-4), OUTPUTS)
+place, go = ORBIT.place, ORBIT.go
 
 
 @pytest.mark.parametrize("depth", ["v2", pytest.param("v1", marks=pytest.mark.slow)])

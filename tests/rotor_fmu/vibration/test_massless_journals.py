@@ -25,6 +25,19 @@ def bare_shaft():
     return Train("bare", 300.0, 0.0, 0.0, 0.0, shoulders, (DISC,), seats)
 
 
+def bare_rotor():
+    """That shaft, unreduced and weightless, its disc unbalanced from the start on."""
+    return Rotor.of_train(
+        bare_shaft(),
+        reduction="none",
+        gravity=0.0,
+        speed=SPEED,
+        blade_unbalance=[MASS],
+        blade_phase=[0.0],
+        fracture_time=0.0,
+    )
+
+
 def shaft_stiffness():
     """Of the middle against both ends, with shear: 1/k = L^3 / (48 E I) + L / (4 kappa G A)."""
     area, second = math.pi / 4.0 * DIAMETER**2, math.pi / 64.0 * DIAMETER**4
@@ -46,15 +59,7 @@ def test_a_disc_on_a_massless_shaft_and_films_moves_as_the_closed_form_says(spri
     K, C = (np.tile(np.diag([x, x, 0.0, 0.0]) / 2.0, (2, 1, 1)) for x in (stiffness, damping))
     errors = []
     for H in (2e-4, 1e-4):
-        rotor = Rotor.of_train(
-            bare_shaft(),
-            reduction="none",
-            gravity=0.0,
-            speed=SPEED,
-            blade_unbalance=[MASS],
-            blade_phase=[0.0],
-            fracture_time=0.0,
-        )
+        rotor = bare_rotor()
         rotor.start_from_law(np.zeros((2, 4)), K, C, orbit=False)
         found, exact = [], []
         for k in range(round(0.05 / H)):
@@ -71,15 +76,7 @@ def test_a_massless_journal_goes_on_from_a_saved_state_and_through_steps_of_any_
     K, C = (np.tile(np.diag([x, x, 0.0, 0.0]), (2, 1, 1)) for x in (2e6, 3e4))
     ends = []
     for divided in (1, 2, 8):
-        rotor = Rotor.of_train(
-            bare_shaft(),
-            reduction="none",
-            gravity=0.0,
-            speed=SPEED,
-            blade_unbalance=[MASS],
-            blade_phase=[0.0],
-            fracture_time=0.0,
-        )
+        rotor = bare_rotor()
         rotor.start_from_law(np.zeros((2, 4)), K, C, orbit=False)
         time = 0.0
         for k in range(120 * divided):
