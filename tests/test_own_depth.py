@@ -74,7 +74,8 @@ print(style.depth_name("spring"), len({style.colour_of(d) for d in ("v1", "v2", 
 RUN = """
 import numpy as np
 from pathlib import Path
-from orchestrator.case.simulate import default_threads, simulate
+from orchestrator.case.simulate import simulate
+from orchestrator.case.threads import default_threads
 from orchestrator.fmi.folder import ensure_fmus
 from orchestrator.scenario.file import load_scenario, train_of
 from rich.console import Console

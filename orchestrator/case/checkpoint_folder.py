@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -16,19 +17,24 @@ from orchestrator.observers.checkpoint import (
     Checkpoint,
     CheckpointError,
     Checkpoints,
-    half_written,
     read,
 )
 from orchestrator.observers.checkpoint_meta import problem_of
 from orchestrator.results.folder import ResultFolderError, check_writable
-from orchestrator.results.record_files import blocks_in
+from orchestrator.results.growing_record import HEAD_FILE, files_of
 
 SUFFIX = "-checkpoint"
+_RUNNING = "-running"
 
 
 def checkpoint_folder(folder: Path) -> Path:
     """Where the checkpoint of a run lies whose results go to `folder`."""
     return folder.with_name(folder.name + SUFFIX)
+
+
+def running_folder(folder: Path) -> Path:
+    """Where the record of a long run without checkpoints grows whose results go to `folder`."""
+    return folder.with_name(folder.name + _RUNNING)
 
 
 def checkpoints(
@@ -105,11 +111,21 @@ def request_of(saved: Checkpoint, folder: Path, fmus: Path, *, trust: bool) -> R
 
 def discard(folder: Path) -> None:
     """Remove the checkpoint of a run that is finished, and its folder unless something else is in it."""
-    place = checkpoint_folder(folder)
+    remove(checkpoint_folder(folder))
+
+
+def remove(place: Path) -> None:
+    """Remove checkpoint and record so far from a folder, and it unless something else is in it."""
     with suppress(OSError):
-        for path in (place / FILE, *half_written(place), *blocks_in(place)):
+        for path in (place / FILE, *_half_written(place), *files_of(place)):
             path.unlink(missing_ok=True)
         place.rmdir()
+
+
+def _half_written(folder: Path) -> list[Path]:
+    """Return the files of a checkpoint's folder that killed processes left in the middle of writing."""
+    name = re.compile(rf"(?:{re.escape(FILE)}|{re.escape(HEAD_FILE)})\.\d+\.part")
+    return [path for path in sorted(folder.glob("*.part")) if name.fullmatch(path.name)]
 
 
 def check_checkpoint(folder: Path) -> None:

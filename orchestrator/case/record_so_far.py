@@ -1,86 +1,156 @@
-"""The record of a run while it goes on: with each checkpoint a file of the instants since the one before.
+"""The record of a run while it goes on: what is kept is written to a folder, and leaves the memory.
 
-The files lie beside the checkpoint, each whole or not there; `read_record` of their folder joins them.
+The folder is that of the checkpoint, or one of its own beside the results of a run without.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Lock
+from time import monotonic
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from orchestrator.master.observer import Observer
+from orchestrator.master.stepping import Stepper
+from orchestrator.observers.checkpoint import CheckpointError
 from orchestrator.observers.recorder import Recorder
 from orchestrator.observers.revolutions import Revolutions
-from orchestrator.results.record_files import block, block_name, blocks_in
+from orchestrator.results.growing_record import (
+    GROWING,
+    GrowingRecord,
+    GrowingRecordError,
+    files_of,
+    open_growing,
+)
 
 RUNNING = "running"
 """The attribute ``status`` of such a record."""
 
+HELD = 4 * 2**20
+"""Bytes of rows that are held in memory."""
+PATIENCE = 60.0
+"""Wall time in s behind which what there is is written."""
+
 
 @dataclass
-class RecordSoFar:
-    """Writes the files.
+class RecordSoFar(Observer):
+    """Writes it.
 
     Attributes
     ----------
     folder : Path
-        That of the checkpoint.
+        Where.
     recorder, revolutions : Recorder, Revolutions or None
-        What has been kept.
+        Of what they have kept complete rows are written and forgotten.
     make : callable
-        A record of some rows of both.
+        A record of the rows that they hold.
     warn : callable
-        Told of what cannot be written; the next file then begins there.
-    rows, turns : int
-        Rows of both that are written.
+        Told of what cannot be written; it stays in memory until it can.
     """
 
     folder: Path
     recorder: Recorder
     revolutions: Revolutions | None
-    make: Callable[[Recorder, Revolutions | None], xr.Dataset]
+    make: Callable[[], xr.Dataset]
     warn: Callable[[str], None]
-    rows: int = 0
-    turns: int = 0
+    _written: GrowingRecord | None = None
+    _allowed: int = field(default_factory=lambda: HELD)
+    _last: float = field(default_factory=monotonic)
+    _lock: Lock = field(default_factory=Lock)
 
-    def go_on(self) -> None:
-        """Go on behind a checkpoint, at which all that was kept by then is written."""
-        self.rows = self.recorder.size
-        self.turns = 0 if self.revolutions is None else self.revolutions.size
-        self._remove_from(self.rows)
+    def begin(self, stepper: Stepper) -> None:
+        """Remove what another run has left."""
+        self.remove()
+
+    def go_on(self, checkpoint: Path) -> None:
+        """Go on behind a checkpoint, at which all was written that it does not hold itself.
+
+        Raises
+        ------
+        CheckpointError
+            When that is not there.
+        """
+        turns = 0 if self.revolutions is None else self.revolutions.rows.forgotten
+        counts = self.recorder.rows.forgotten, turns
+        if not any(counts):
+            self.remove()
+            return
+        try:
+            self._written = open_growing(self.folder).first(counts)
+            if GrowingRecord(self.folder, self.make()).layout != self._written.layout:
+                raise GrowingRecordError(f"{files_of(self.folder)[0]}: is of a record with other series")
+        except GrowingRecordError as error:
+            raise CheckpointError(
+                f"{error}; {checkpoint.name} goes on from there: put the files back, or start anew"
+            ) from None
+
+    def record(self, step: int, time: float, stepper: Stepper) -> None:
+        """Write when there is much, or has been something for long."""
+        held = self.recorder.rows.nbytes
+        if self.revolutions is not None:
+            held += self.revolutions.rows.nbytes
+        if held > self._allowed or monotonic() > self._last + PATIENCE:
+            self.write()
 
     def write(self) -> None:
-        """Write what is new, if anything is."""
-        if not self.rows:
-            self._remove_from(0)
-        if self.recorder.size == self.rows:
-            return
-        turned = self.revolutions and self.revolutions.since(self.turns)
-        data = self.make(self.recorder.since(self.rows), turned)
-        path = self.folder / block_name(self.rows)
-        fresh = path.with_suffix(f".{os.getpid()}.part")
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            with fresh.open("wb") as file:
-                file.write(block(data.assign_attrs(status=RUNNING)))
-                file.flush()
-                os.fsync(file.fileno())  # a checkpoint that counts its rows comes behind it
-            fresh.replace(path)
-        except OSError as error:
-            self.warn(f"{path}: not written, the next file has its instants: {error}")
-            return
-        finally:
-            fresh.unlink(missing_ok=True)
-        self.rows = self.recorder.size
-        self.turns = 0 if self.revolutions is None else self.revolutions.size
+        """Write what is complete."""
+        with self._lock:
+            self._last = monotonic()
+            count = self.recorder.size
+            turns = 0 if self.revolutions is None else self.revolutions.rows.held
+            if not count and not turns:
+                return
+            before = self._written or GrowingRecord(self.folder, xr.Dataset())
+            try:
+                data = self.make().assign_attrs(status=RUNNING)
+                self._written = before.append(data)
+            except OSError as error:
+                self._allowed *= 2
+                self.warn(f"{self.folder}: the record so far cannot be written, it stays in memory: {error}")
+                return
+            self._allowed = HELD
+            self.recorder.forget(count)
+            if self.revolutions is not None:
+                self.revolutions.rows.forget(turns)
 
-    def _remove_from(self, row: int) -> None:
-        """Remove files of rows that the run has not come to, of another run or another try."""
-        for path in blocks_in(self.folder):
-            if path.name >= block_name(row):
-                with suppress(OSError):  # what is read again is overwritten, or of an older run
-                    path.unlink(missing_ok=True)
+    def series(self, name: str, held: NDArray[np.float64]) -> NDArray[np.float64]:
+        """All rows of a series whose last ones are held."""
+        if self._written is None:
+            return held
+        return np.append(self._written.dataset()[name].values, held)
+
+    def joined(self, held: xr.Dataset) -> xr.Dataset:
+        """The whole record, with all but the series as in that of the rows that are held.
+
+        In memory where nothing is written, or what is held cannot be.
+        """
+        if self._written is None:
+            return held
+        if not any(held.sizes.get(name, 0) for name in GROWING):
+            return self._written.dataset(held)
+        return _concatenated(self._written.dataset(), held)
+
+    def finish(self) -> None:
+        """Write what there is, where something is written already."""
+        if self._written is not None:
+            self.write()
+
+    def remove(self) -> None:
+        """Remove the files."""
+        for path in files_of(self.folder):
+            with suppress(OSError):
+                path.unlink(missing_ok=True)
+
+
+def _concatenated(written: xr.Dataset, held: xr.Dataset) -> xr.Dataset:
+    for dimension in set(GROWING) & set(held.dims):
+        names = [name for name, variable in held.variables.items() if dimension in variable.dims]
+        series = xr.concat([written[names], held[names]], dimension, join="override")
+        held = held.drop_dims(dimension).merge(series, compat="override").assign_attrs(held.attrs)
+    return held

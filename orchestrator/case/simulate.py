@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from copy import copy
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -11,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from bearing_fmu import depths
 from orchestrator.case.case import Case, folder_case
 from orchestrator.case.course import course_of
 from orchestrator.case.progress import Progress, Stage
@@ -48,9 +46,6 @@ from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of, turned
 from rotor_fmu.train.train import Train
 
-WORTH_A_THREAD = 4
-"""Bearings with a slow film from which a second thread gains more than its handing over costs."""
-
 _REDUCTION = "reduction.used"
 
 
@@ -68,12 +63,26 @@ class Execution:
         On which the bearings step.
     watchdog : Watchdog
         Ends the run when a unit hangs; asleep by itself, and of one run.
+    record : Path or None
+        Folder to which a long record goes as it grows, where there are no checkpoints; it is read from there,
+        and the caller removes it. None: it stays in memory.
+    warn : callable
+        Told when that cannot be written.
     """
 
     checkpoints: Checkpoints | None = None
     resume: Checkpoint | None = None
     threads: int = 1
     watchdog: Watchdog[Result] = field(default_factory=Watchdog)
+    record: Path | None = None
+    warn: Callable[[str], None] = print
+
+    @property
+    def growing(self) -> Path | None:
+        """Folder of the record that grows."""
+        if self.checkpoints is not None:
+            return self.checkpoints.folder
+        return self.record if self.resume is None else self.resume.path.parent
 
 
 def simulate(
@@ -129,13 +138,6 @@ _LEAST_LOAD = 1.0
 """In N, by which forces are measured at least where bearings carry nothing at the start."""
 
 
-def default_threads(scenario: Scenario, train: Train) -> int:
-    """Two threads where the films take long enough for it to pay, and there are processors; else one."""
-    quick = {depth.name for depth in depths.depths() if depth.quick}
-    slow = sum(scenario.depth_of(seat.name) not in quick for seat in train.bearings)
-    return 2 if slow >= WORTH_A_THREAD and (os.cpu_count() or 1) > 1 else 1
-
-
 def _carry_out(
     case: Case, system: System, clock: Stopwatch, announce: Progress, execution: Execution
 ) -> Result:
@@ -176,9 +178,9 @@ class _TimeLoop:
 
     def __init__(self, case: Case, system: System, start: Start, timing: Timing) -> None:
         self._case, self._system, self._start, self._timing = case, system, start, timing
+        self._so_far: RecordSoFar | None = None
         self._train = as_it_runs(case.train, system)
         scenario, train = case.scenario, case.train
-        # Steps end on events where they are controlled; else the rotor takes them inside a step, exactly.
         self._schedule = schedule_of(scenario, train)
         self._course, stride = course_of(scenario, train)
         seats = train.bearings
@@ -209,12 +211,13 @@ class _TimeLoop:
     def run(self, announce: Progress, execution: Execution) -> Result:
         """Carry it to its end."""
         scenario, system, watchdog = self._case.scenario, self._system, execution.watchdog
-        resume, observers = execution.resume, list(self._observers)
-        checkpoints, so_far = execution.checkpoints, None
-        if checkpoints is not None:
+        resume, observers, checkpoints = execution.resume, list(self._observers), execution.checkpoints
+        if execution.growing is not None:
             kept = self._recorder, self._revolutions
-            so_far = RecordSoFar(checkpoints.folder, *kept, self._so_far, checkpoints.warn)
-            checkpoints.beside = so_far.write
+            self._so_far = RecordSoFar(execution.growing, *kept, self._record_so_far, execution.warn)
+            observers.append(self._so_far)
+        if checkpoints is not None and self._so_far is not None:
+            checkpoints.beside = self._so_far.write
             observers.append(Saver(checkpoints, system, self._start, self._keepers))
 
         def on_time(time: float) -> None:
@@ -224,8 +227,8 @@ class _TimeLoop:
         def go_on(stepper: Stepper) -> int:
             assert resume is not None
             step = resume.restore_run(stepper, self._keepers, self._course)
-            if so_far is not None:
-                so_far.go_on()
+            if self._so_far is not None:
+                self._so_far.go_on(resume.path)
             return step
 
         watchdog.partial, watchdog.patience = self._hung, 1.0
@@ -251,7 +254,7 @@ class _TimeLoop:
         rest = end.wall_time - film - rotor - fmi - end.record_time
         timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
-        record = self._record(self._recorder, outcome, message, self._revolutions)
+        record = self._record(self._recorder, outcome, message)
         if outcome.ok:
             outcome, message = judge(record, self._case.train)
             record = record.assign_attrs(outcome_attributes(outcome, message))
@@ -263,29 +266,35 @@ class _TimeLoop:
 
     def _hung(self, message: str) -> Result:
         """Make the result of a loop that hangs in a unit."""
-        kept = copy(self._recorder)  # its size stays as it is, whatever the time loop does
-        record = self._record(kept, Outcome.UNIT_HUNG, message, self._revolutions)
+        record = self._record(self._recorder.copy(), Outcome.UNIT_HUNG, message)
         evaluations = self._system.bearing_group.evaluations
         return Result(record, Outcome.UNIT_HUNG, message, self._timing, 0, evaluations)
 
-    def _so_far(self, recorder: Recorder, revolutions: Revolutions | None) -> xr.Dataset:
-        """The record of some rows, while the run goes on."""
-        return self._record(recorder, Outcome.INTERRUPTED, "", revolutions)
+    def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
+        """The whole record; of what grew on disk its series are read when they are used."""
+        if self._so_far is None:
+            return self._held(recorder, outcome, message)
+        self._so_far.finish()
+        return self._so_far.joined(self._held(recorder, outcome, message))
 
-    def _record(
-        self, recorder: Recorder, outcome: Outcome, message: str, revolutions: Revolutions | None
-    ) -> xr.Dataset:
+    def _record_so_far(self) -> xr.Dataset:
+        return self._held(self._recorder, Outcome.INTERRUPTED, "")
+
+    def _held(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
+        """The record of the rows that are in memory."""
         case = self._case
         record = make_record(
             recorder, self._start, case.scenario, self._train, outcome, message, self._provenance
         )
         record = record.assign_attrs(self._least_damped)
         if case.scenario.turns:
-            happened = self._happenings.happened
-            ran = turned(self._schedule, self._recorder.times, self._recorder.speeds, happened)
+            series = self._so_far.series if self._so_far is not None else lambda _, held: held
+            times = series("time", recorder.times)
+            speeds = series("rotation_speed", recorder.speeds)
+            ran = turned(self._schedule, times, speeds, self._happenings.happened)
             record = record.assign_attrs(ran.attributes() | loss_attributes(ran))
         if self._recorder.between:
             record = record.assign_attrs(between_evaluations=self._recorder.between, between_how=WORDS)
-        if revolutions is not None:
-            record = with_revolutions(record, revolutions)
+        if self._revolutions is not None:
+            record = with_revolutions(record, self._revolutions)
         return record.assign_attrs({"reduction_used": self._reduction} if self._reduction else {})

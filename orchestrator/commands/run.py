@@ -9,15 +9,18 @@ from rich.console import Console
 from orchestrator.case.carry_out import carry_out
 from orchestrator.case.case import Case
 from orchestrator.case.certify import at_half_step
-from orchestrator.case.checkpoint_folder import checkpoints, discard
+from orchestrator.case.checkpoint_folder import checkpoints, discard, remove, running_folder
 from orchestrator.case.conclude import completed, conclude
 from orchestrator.case.prepare import prepare, result_folder_of
 from orchestrator.case.request import RunRequest
-from orchestrator.case.simulate import Execution, default_threads
+from orchestrator.case.simulate import Execution
+from orchestrator.case.threads import default_threads
 from orchestrator.fmi.watchdog import Watchdog, leave
 from orchestrator.observers.checkpoint import Checkpoint
+from orchestrator.outcome import Outcome
 from orchestrator.report.library import require_library
 from orchestrator.results.folder_lock import lock_folder
+from orchestrator.results.growing_record import is_growing
 from orchestrator.results.result import Result
 
 
@@ -55,9 +58,18 @@ def run_case(
     """Execute a case and conclude it; otherwise see `run`."""
     folder = result_folder_of(request, case.scenario)
     threads = request.threads or default_threads(case.scenario, case.train)
+    running = running_folder(folder.absolute())
+    halved = running.with_name(f"{running.name}-half")
 
     def finish(result: Result, half: Result | None = None) -> int:
-        return conclude(case, request, folder, (completed(case, result), half), console, errors)
+        status = conclude(case, request, folder, (completed(case, result), half), console, errors)
+        if status == Outcome.NOT_WRITTEN.status and is_growing(running):
+            text = f"The record is kept in {running}: bladeloss report, bladeloss.load read it."
+            errors.print(text, highlight=False, soft_wrap=True)
+        else:
+            remove(running)
+        remove(halved)
+        return status
 
     def warn(text: str) -> None:
         errors.print(f"[yellow]warning:[/yellow] {text}", highlight=False, soft_wrap=True)
@@ -69,12 +81,12 @@ def run_case(
 
         with Watchdog(request.budget, give_up) as watchdog:
             saving = checkpoints(case, request, folder, warn)
-            result = carry_out(case, console, Execution(saving, saved, threads, watchdog))
+            result = carry_out(case, console, Execution(saving, saved, threads, watchdog, running, warn))
         half = None
         if request.certify and result.outcome.ok:
             console.print("Certificate: the same run at half the step", highlight=False)
             finer = replace(case, scenario=at_half_step(case.scenario))
-            half = carry_out(finer, console, Execution(threads=threads))
+            half = carry_out(finer, console, Execution(threads=threads, record=halved, warn=warn))
         status = finish(result, half)
         if status == 0 and request.checkpoint is not None:
             discard(folder)

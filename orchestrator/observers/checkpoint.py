@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
@@ -30,7 +29,7 @@ from orchestrator.observers.checkpoint_meta import Meta, problem_of
 Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
-VERSION = 3
+VERSION = 4
 
 
 class Keeper(Protocol):
@@ -152,7 +151,7 @@ class Checkpoints:
     warn : callable
         Told of a checkpoint that could not be written.
     beside : callable
-        Writes what else is due then, before the checkpoint.
+        Writes what else is due then, before the checkpoint is made of what is left.
     """
 
     folder: Path
@@ -186,6 +185,7 @@ class Checkpoints:
         # Half a millionth of the interval forgives the rounding of instants.
         if not last and time < self._last + self.every * (1.0 - 5e-7):
             return
+        self.beside()
         meta = {
             "version": VERSION,
             "step": step,
@@ -204,7 +204,6 @@ class Checkpoints:
         for keeper, watching in keepers.items():
             arrays |= {f"{keeper}.{name}": value for name, value in watching.arrays().items()}
         path = self.folder / FILE
-        self.beside()
         try:
             write(path, meta, arrays)
         except OSError as error:
@@ -260,12 +259,6 @@ def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
         fresh.replace(path)
     finally:
         fresh.unlink(missing_ok=True)
-
-
-def half_written(folder: Path) -> list[Path]:
-    """Return the files of a checkpoint's folder that killed processes left in the middle of writing."""
-    name = re.compile(rf"(?:{re.escape(FILE)}|record-\d+)\.\d+\.part")
-    return [path for path in sorted(folder.glob("*.part")) if name.fullmatch(path.name)]
 
 
 def read(folder: Path) -> Checkpoint:

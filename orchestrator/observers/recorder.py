@@ -1,4 +1,4 @@
-"""Watches every macro step and keeps what is recorded, in memory set aside beforehand.
+"""Watches every macro step and keeps what is recorded, until it is written elsewhere.
 
 Between two records nothing is lost of the extremes: the largest forces and the least
 gaps of every macro step enter the next record.  The largest values of the whole run are
@@ -11,7 +11,6 @@ is complete when all its bearings are (`orchestrator.observers.between`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from copy import copy
 from typing import Any
@@ -29,6 +28,7 @@ from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 from orchestrator.observers.between import Between, Bores
 from orchestrator.observers.extremes import DEFECT, EXTREMES, SIGN, STEP_ERROR, extremes_of
+from orchestrator.observers.rows import Rows
 
 Array = NDArray[np.float64]
 
@@ -38,20 +38,6 @@ KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
 
 SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")
 FIELDS = ("x", "y", "amplitude", "stress")
-_KEPT_ARRAYS = (
-    "times",
-    "journals",
-    "responses",
-    "extremes",
-    "shaft",
-    "fields",
-    "housings",
-    "foundation",
-    "speeds",
-    "details",
-)
-
-
 DETAILS = tuple(variable.name for variable in port.BEARING_DETAILS)
 """Bearing outputs in the record where bearings tell them."""
 
@@ -82,35 +68,39 @@ class Recorder(Observer):
     Attributes
     ----------
     size : int
-        Records that are complete.
+        Records that are complete, among those that are not forgotten.
     peaks, peak_times : ndarray (bearings, 9)
         Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
     """
 
     def __init__(self, system: System, nodes: int, steps: int, stride: int, bores: Bores) -> None:
-        bearings, capacity = len(system.bearings), math.ceil(steps / stride) + 2
+        bearings = len(system.bearings)
+        moving = bearings if system.housings is not None else 0
         self._system = system
         self._steps, self._stride = steps, stride
-        self.size = self._rows = 0
+        self.size, self._newest = 0, -1.0
         self._between = Between(bores, len(RESPONSE) + len(DETAILS))
         self._whole = True
-        self._times = np.empty(capacity)
-        self._journals = np.empty((capacity, bearings, 8))
-        self._responses = np.empty((capacity, bearings, len(KEPT)))
-        self._extremes = np.empty((capacity, bearings, len(EXTREMES)))
-        self._shaft = np.empty((capacity, len(SHAFT)))
-        self._fields = np.empty((capacity, len(FIELDS), nodes), dtype=np.float32)
-        self._speeds = np.empty(capacity)
-        self._details = np.zeros((capacity, bearings, len(DETAILS)))
+        self.rows = Rows(
+            {
+                "times": ((), float),
+                "journals": ((bearings, 8), float),
+                "responses": ((bearings, len(KEPT)), float),
+                "extremes": ((bearings, len(EXTREMES)), float),
+                "shaft": ((len(SHAFT),), float),
+                "fields": ((len(FIELDS), nodes), np.float32),
+                "housings": ((moving, 8), float),
+                "foundation": ((moving, len(port.FOUNDATION)), float),
+                "speeds": ((), float),
+                "details": ((bearings, len(DETAILS)), float),
+            }
+        )
         self._details_now = np.zeros((bearings, len(DETAILS)))
         self._detail_blocks = [
             Block(unit, list(DETAILS), row)
             for unit, row in zip(system.bearings, self._details_now, strict=True)
             if tells_details(unit)
         ]
-        moving = bearings if system.housings is not None else 0
-        self._housings = np.empty((capacity, moving, 8))
-        self._foundation = np.empty((capacity, moving, len(port.FOUNDATION)))
         self._foundation_values = np.empty((moving, len(port.FOUNDATION)))
         on_foundation = [port.at_bearing(i, name) for i in range(1, moving + 1) for name in port.FOUNDATION]
         self._foundation_block = Block(system.rotor, on_foundation, self._foundation_values.reshape(-1))
@@ -133,7 +123,7 @@ class Recorder(Observer):
         self._whole = done is None or bool(done.all())
         self._note(end, advance)
         if done is not None:
-            if int(self._between.first[done].min(initial=self._rows)) < self._rows:
+            if int(self._between.first[done].min(initial=self.rows.held)) < self.rows.held:
                 self._fill(done, end)
             self._between.stands[done] = end
 
@@ -144,7 +134,7 @@ class Recorder(Observer):
 
     def stop(self, step: int | None, time: float, stepper: Stepper) -> None:
         """Keep a record of where the run stopped, unless there is one, or some bearings stand behind."""
-        if self._whole and self.size and self._times[self._rows - 1] < time and not self._system.rotor.failed:
+        if self._whole and 0.0 <= self._newest < time and not self._system.rotor.failed:
             self._keep(time)
 
     def _note(self, time: float, advance: Advance | None) -> None:
@@ -167,26 +157,26 @@ class Recorder(Observer):
             self.peak_times[higher] = time
 
     def _keep(self, time: float) -> None:
-        k = self._rows
-        self._times[k] = time
-        self._speeds[k] = self._system.speed
-        self._journals[k] = self._system.journals
-        self._responses[k] = self._system.responses[:, _KEPT]
-        for block in self._detail_blocks:
+        system = self._system
+        for block in (*self._detail_blocks, self._shaft_block):
             block.get()
-        self._details[k] = self._details_now
-        np.multiply(self._since, SIGN, out=self._extremes[k])
-        self._since[:] = -np.inf
-        self._shaft_block.get()
-        self._shaft[k] = self._shaft_values[: len(SHAFT)]
-        self._fields[k] = self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1)
-        if self._system.housings is not None:
+        if system.housings is not None:
             self._foundation_block.get()
-            self._housings[k] = self._system.housings
-            self._foundation[k] = self._foundation_values
-        self._rows = k + 1
+        row = self.rows.add(
+            times=time,
+            speeds=system.speed,
+            journals=system.journals,
+            responses=system.responses[:, _KEPT],
+            details=self._details_now,
+            extremes=self._since * SIGN,
+            shaft=self._shaft_values[: len(SHAFT)],
+            fields=self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1),
+            **({} if system.housings is None else _on_foundation(system, self._foundation_values)),
+        )
+        self._since[:] = -np.inf
+        self._newest = time
         waits = np.zeros(len(self._now), dtype=bool) if self._whole else self._between.stands < time
-        self.size = self._between.kept(k, waits, self._told, self._system.stands_at)
+        self.size = self._between.kept(row, waits, self._told, system.stands_at)
 
     def _told(self) -> Array:
         """All that bearings tell where they stand, (bearings, outputs and details)."""
@@ -194,86 +184,87 @@ class Recorder(Observer):
 
     def _fill(self, done: NDArray[np.bool_], end: float) -> None:
         """Complete what waits for these bearings, which stand at `end`."""
-        system, between = self._system, self._between
-        rows, bearing = between.waiting(done, self._rows)
+        system, between, kept = self._system, self._between, self.rows
+        rows, bearing = between.waiting(done, kept.held)
         for block in self._detail_blocks:
             block.get()
-        motion = self._journals[rows, bearing]
+        motion = kept["journals"][rows, bearing]
         if system.housings is not None:
-            motion = motion - self._housings[rows, bearing]
-        share = between.shares(bearing, self._times[rows], end)
+            motion = motion - kept["housings"][rows, bearing]
+        share = between.shares(bearing, kept["times"][rows], end)
         values = between.at(bearing, share, motion, self._told(), system.motion)
-        self._responses[rows, bearing] = values[:, _KEPT]
-        self._details[rows, bearing] = values[:, len(RESPONSE) :]
-        extremes = self._extremes[rows, bearing] * SIGN
+        kept["responses"][rows, bearing] = values[:, _KEPT]
+        kept["details"][rows, bearing] = values[:, len(RESPONSE) :]
+        extremes = kept["extremes"][rows, bearing] * SIGN
         extremes[:, DEFECT] = np.maximum(extremes[:, DEFECT], 0.0)
         extremes = np.maximum(extremes, extremes_of(values))
-        self._extremes[rows, bearing] = extremes * SIGN
+        kept["extremes"][rows, bearing] = extremes * SIGN
         for row, b, found in zip(rows, bearing, extremes, strict=True):
             higher = found > self._peaks[b]
-            self._peaks[b, higher], self.peak_times[b, higher] = found[higher], self._times[row]
-        self.size = between.complete(done, self._rows)
+            self._peaks[b, higher], self.peak_times[b, higher] = found[higher], kept["times"][row]
+        self.size = between.complete(done, kept.held)
+
+    def forget(self, count: int) -> None:
+        """Forget the first complete records, which are written elsewhere."""
+        self.rows.forget(count)
+        self._between.first -= count
+        self.size -= count
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """What was kept so far, by name; views."""
-        kept = {name: getattr(self, f"_{name}")[: self._rows] for name in _KEPT_ARRAYS}
+        """All that is here, by name; views."""
         whole = {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
-        return kept | whole | {f"between.{name}": x for name, x in self._between.arrays().items()}
+        whole["newest"] = np.array(self._newest)
+        return self.rows.arrays() | whole | {f"between.{k}": x for k, x in self._between.arrays().items()}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
-        self._rows = len(arrays["times"])
-        for name in _KEPT_ARRAYS:
-            getattr(self, f"_{name}")[: self._rows] = arrays[name]
+        self.rows.restore(arrays)
         self.size = self._between.restore(arrays)
         self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
         self.peak_times[:] = arrays["peak_times"]
+        self._newest = float(arrays["newest"])
 
-    def since(self, row: int) -> Recorder:
-        """The records from a row on, to be read; views."""
-        part = copy(self)
-        for name in _KEPT_ARRAYS:
-            setattr(part, f"_{name}", getattr(self, f"_{name}")[row : self.size])
-        part.size = self.size - row
-        return part
+    def copy(self) -> Recorder:
+        """What is complete now, whatever the run goes on to do; views."""
+        return copy(self)
 
     @property
     def between(self) -> float:
         """Share of what bearings tell in all records that lies between two evaluations."""
-        return self._between.filled / max(1, self.size * len(self._now))
+        return self._between.filled / max(1, (self.rows.forgotten + self.size) * len(self._now))
 
     @property
     def times(self) -> Array:
         """Instants of the records, (records,)."""
-        return self._times[: self.size]
+        return self.rows["times"][: self.size]
 
     @property
     def speeds(self) -> Array:
         """Speeds of the rotor, (records,)."""
-        return self._speeds[: self.size]
+        return self.rows["speeds"][: self.size]
 
     @property
     def journals(self) -> Array:
         """Motion q, v of the journals, (records, bearings, 8)."""
-        return self._journals[: self.size]
+        return self.rows["journals"][: self.size]
 
     @property
     def housings(self) -> Array:
         """Motion q, v of the housings, (records, bearings, 8); no bearings where they stand rigidly."""
-        return self._housings[: self.size]
+        return self.rows["housings"][: self.size]
 
     @property
     def foundation(self) -> Array:
         """Wrenches on the foundation, (records, bearings, 4); likewise."""
-        return self._foundation[: self.size]
+        return self.rows["foundation"][: self.size]
 
     def response(self, name: str) -> Array:
         """Bearing output `name`, one of `KEPT`, (records, bearings)."""
-        return self._responses[: self.size, :, KEPT.index(name)]
+        return self.rows["responses"][: self.size, :, KEPT.index(name)]
 
     def detail(self, name: str) -> Array:
         """What only some films tell, one of `DETAILS`, (records, bearings); 0 of others."""
-        return self._details[: self.size, :, DETAILS.index(name)]
+        return self.rows["details"][: self.size, :, DETAILS.index(name)]
 
     @property
     def has_details(self) -> bool:
@@ -282,7 +273,7 @@ class Recorder(Observer):
 
     def extreme(self, name: str) -> Array:
         """Extreme of one of `EXTREMES` since the record before, (records, bearings)."""
-        return self._extremes[: self.size, :, EXTREMES.index(name)]
+        return self.rows["extremes"][: self.size, :, EXTREMES.index(name)]
 
     @property
     def peaks(self) -> Array:
@@ -291,8 +282,14 @@ class Recorder(Observer):
 
     def shaft(self, name: str) -> Array:
         """Rotor output `name`, one of `SHAFT`, (records,)."""
-        return self._shaft[: self.size, SHAFT.index(name)]
+        return self.rows["shaft"][: self.size, SHAFT.index(name)]
 
     def field(self, name: str) -> NDArray[np.float32]:
         """Rotor output ``node[:].name``, one of `FIELDS`, (records, nodes)."""
-        return self._fields[: self.size, FIELDS.index(name)]
+        return self.rows["fields"][: self.size, FIELDS.index(name)]
+
+
+def _on_foundation(system: System, wrenches: Array) -> dict[str, Array]:
+    """Motion of the housings and what acts on the foundation, as kept."""
+    assert system.housings is not None
+    return {"housings": system.housings, "foundation": wrenches}

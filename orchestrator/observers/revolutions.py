@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from copy import copy
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
+from orchestrator.observers.rows import Rows
 
 Array = NDArray[np.float64]
 
@@ -30,9 +30,6 @@ ORDERS = (0.5, 1.0, 2.0)
 EXTREMES = ("least_gap", "contact_force", "force")
 """Of a revolution, at the ends of its steps: the least, and the largest two."""
 _TURN = 2.0 * math.pi
-_ROWS = 256
-_KEPT = ("times", "speeds", "amplitudes", "overall", "extremes")
-"""Arrays with a row a revolution."""
 _GOING_ON = ("before", "sum", "last", "range", "most")
 """Those of the revolution that is going on."""
 
@@ -47,18 +44,23 @@ class Revolutions(Observer):
 
     Attributes
     ----------
-    size : int
-        Revolutions so far.
+    rows : Rows
+        Those that are not written elsewhere.
     """
 
     def __init__(self, system: System) -> None:
         n = len(system.bearings)
-        self._system, self.size = system, 0
+        self._system = system
         self._orders = np.array(ORDERS)
-        self._times, self._speeds = np.empty(_ROWS), np.empty(_ROWS)
-        self._amplitudes = np.empty((_ROWS, len(ORDERS), n, 2), dtype=complex)
-        self._overall = np.empty((_ROWS, n, 2))
-        self._extremes = np.empty((_ROWS, n, len(EXTREMES)))
+        self.rows = Rows(
+            {
+                "times": ((), float),
+                "speeds": ((), float),
+                "amplitudes": ((len(ORDERS), n, 2), complex),
+                "overall": ((n, 2), float),
+                "extremes": ((n, len(EXTREMES)), float),
+            }
+        )
         # of the revolution that is going on
         self._angle = self._began = 0.0
         self._before = np.zeros((n, 2))
@@ -107,74 +109,54 @@ class Revolutions(Observer):
         return np.column_stack([-gap, contact, np.hypot(system.forces[:, 0], system.forces[:, 1])])
 
     def _close(self, time: float) -> None:
-        if self.size == len(self._times):
-            self._grow()
-        k = self.size
-        self._times[k], self._speeds[k] = time, _TURN / (time - self._began)
-        # Angles begin at 0 in each revolution: the factor of half an order turns by -1 from one to the next.
-        self._amplitudes[k] = (self._sum + self._signs * self._last) / _TURN
+        self.rows.add(
+            times=time,
+            speeds=_TURN / (time - self._began),
+            # Angles begin at 0 in each revolution: the factor of half an order turns by -1 to the next.
+            amplitudes=(self._sum + self._signs * self._last) / _TURN,
+            overall=self._range[1] - self._range[0],
+            extremes=self._most * (-1.0, 1.0, 1.0),
+        )
         self._last[:] = self._sum
-        self._overall[k] = self._range[1] - self._range[0]
-        self._extremes[k] = self._most * (-1.0, 1.0, 1.0)
-        self.size, self._began = k + 1, time
+        self._began = time
 
     def _renew(self) -> None:
         self._sum[:] = 0.0
         self._range[:] = self._before
         self._most[:] = self._now()
 
-    def _grow(self) -> None:
-        for name in _KEPT:
-            old = getattr(self, f"_{name}")
-            new = np.empty((2 * len(old), *old.shape[1:]), dtype=old.dtype)
-            new[: len(old)] = old
-            setattr(self, f"_{name}", new)
-
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
         now = {name: getattr(self, f"_{name}") for name in _GOING_ON}
-        kept = {name: getattr(self, f"_{name}")[: self.size] for name in _KEPT}
-        return {**kept, **now, "turn": np.array([self._angle, self._began])}
+        return {**self.rows.arrays(), **now, "turn": np.array([self._angle, self._began])}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
-        self.size = len(arrays["times"])
-        while len(self._times) < self.size:
-            self._grow()
-        for name in _KEPT:
-            getattr(self, f"_{name}")[: self.size] = arrays[name]
+        self.rows.restore(arrays)
         for name in _GOING_ON:
             getattr(self, f"_{name}")[:] = arrays[name]
         self._angle, self._began = arrays["turn"].tolist()
 
-    def since(self, row: int) -> Revolutions:
-        """The revolutions from a row on, to be read; views."""
-        part = copy(self)
-        for name in _KEPT:
-            setattr(part, f"_{name}", getattr(self, f"_{name}")[row : self.size])
-        part.size = self.size - row
-        return part
-
     @property
     def times(self) -> Array:
         """Ends of the revolutions in s."""
-        return self._times[: self.size]
+        return self.rows["times"]
 
     @property
     def speeds(self) -> Array:
         """Mean speeds in them in rad/s."""
-        return self._speeds[: self.size]
+        return self.rows["speeds"]
 
     @property
     def amplitudes(self) -> NDArray[np.complex128]:
         """Of each order, (revolutions, orders, bearings, 2) in m; not-a-number in the first revolution."""
-        return self._amplitudes[: self.size]
+        return self.rows["amplitudes"]
 
     @property
     def overall(self) -> Array:
         """Peak to peak, (revolutions, bearings, 2) in m."""
-        return self._overall[: self.size]
+        return self.rows["overall"]
 
     def extreme(self, name: str) -> Array:
         """One of `EXTREMES`, (revolutions, bearings)."""
-        return self._extremes[: self.size, :, EXTREMES.index(name)]
+        return self.rows["extremes"][:, :, EXTREMES.index(name)]

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from bearing_fmu import depths
 from orchestrator.errors import OrchestratorError
 from orchestrator.results.figures import style
+from orchestrator.results.growing_record import is_growing
 from orchestrator.results.journals import changing_speed
-from orchestrator.results.record_files import RECORD_FILE, blocks_in, read_record
+from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.relative_motion import journal_motion
 from orchestrator.results.statistics import analysed_bearing, contact_threshold
 from orchestrator.results.verdicts.judge import judge, own_limits
@@ -181,8 +182,8 @@ def shown_bearing(results: Sequence[Result], named: str | None = None) -> str:
 
 
 def _read(path: Path) -> xr.Dataset:
-    file = path / RECORD_FILE if path.is_dir() and not blocks_in(path) else path
-    if not file.is_file() and not blocks_in(file):
+    file = path / RECORD_FILE if path.is_dir() and not is_growing(path) else path
+    if not file.is_file() and not is_growing(file):
         raise ReportError(f"{path}: no record; allowed is the folder of a run, or its {RECORD_FILE}")
     try:
         return read_record(file)

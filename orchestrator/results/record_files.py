@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-import json
 import uuid
 from collections.abc import Callable, Iterator
-from io import BytesIO
+from io import BytesIO, FileIO
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import h5netcdf
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from xarray.backends import H5NetCDFStore
+from xarray.backends.common import ArrayWriter
+
+from orchestrator.results.growing_record import GROWING, is_growing, open_growing
 
 RECORD_FILE = "record.nc"
 TABLE_FILE = "record.csv"
+
+_PART = 2**20
+"""Bytes of a series that are in memory at a time while it is written."""
+_LINES = 1000
+"""Likewise, of a table."""
 
 
 def write_record(record: xr.Dataset, folder: Path) -> tuple[Path, Path]:
@@ -37,7 +43,7 @@ def write_record(record: xr.Dataset, folder: Path) -> tuple[Path, Path]:
     """
     folder.mkdir(parents=True, exist_ok=True)
     record_path, table_path = folder / RECORD_FILE, folder / TABLE_FILE
-    _write_whole(record_path, lambda path: path.write_bytes(netcdf(record)))
+    _write_whole(record_path, lambda path: _write_netcdf(record, path))
     _write_whole(table_path, lambda path: _write_table(record, path))
     return record_path, table_path
 
@@ -47,16 +53,98 @@ def netcdf(data: xr.Dataset) -> bytes:
 
     It is made in memory, because HDF5 writing to a disk that is full ends the process.
     """
+    content = BytesIO()
+    with h5netcdf.File(content, "w") as file:
+        data.dump_to_store(H5NetCDFStore(file), encoding=_encoding(data))
+    return content.getvalue()
+
+
+def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
     numeric = [name for name, variable in data.variables.items() if variable.dtype.kind == "f"]
-    encoding = {
+    return {
         # CF allows no missing values in a coordinate, and nothing has a value that stands for one
         name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data[name].ndim else {})
         for name in numeric
     }
-    content = BytesIO()
-    with h5netcdf.File(content, "w") as file:
-        data.dump_to_store(H5NetCDFStore(file), encoding=encoding)
-    return content.getvalue()
+
+
+def _write_netcdf(record: xr.Dataset, path: Path) -> None:
+    """Write a record, part by part: what `netcdf` returns, but never all of it in memory."""
+    series = {
+        str(name): variable
+        for name, variable in record.variables.items()
+        if variable.dims[:1] in [(dimension,) for dimension in GROWING] and str(name) not in record.indexes
+    }
+    drawn = {  # takes the room of no more than a number
+        name: variable.copy(data=np.broadcast_to(np.zeros((), variable.dtype), variable.shape))
+        for name, variable in series.items()
+    }
+    with _NeverFull(path, "w+b") as file:
+        try:
+            with h5netcdf.File(file, "w") as store:
+                data = record.assign(drawn)
+                writer = _Without(set(series))
+                data.dump_to_store(H5NetCDFStore(store), encoding=_encoding(data), writer=writer)
+                for name, variable in series.items():
+                    rows = max(1, _PART // max(1, variable.nbytes // max(1, variable.shape[0])))
+                    for row in range(0, variable.shape[0], rows):
+                        store[name][row : row + rows] = variable[row : row + rows].values
+        except (OSError, RuntimeError):  # it found not what it had written
+            if file.fault is None:
+                raise
+        if file.fault is not None:
+            raise file.fault
+
+
+class _Without(ArrayWriter):
+    """Writes variables, but for some whose place is only laid out."""
+
+    def __init__(self, without: set[str]) -> None:
+        super().__init__()
+        self._without = without
+
+    def add(self, source: Any, target: Any, region: Any = None) -> None:
+        """Write one."""
+        if target.variable_name not in self._without:
+            super().add(source, target, region)
+
+
+class _NeverFull(FileIO):
+    """A file that takes what there is no room for and drops it: HDF5 ends the process at an error.
+
+    Attributes
+    ----------
+    fault : OSError or None
+        What came first.
+    """
+
+    fault: OSError | None = None
+
+    def write(self, content: Any) -> int:
+        """Write, or go on as if."""
+        count = memoryview(content).nbytes
+        if self.fault is None:
+            try:
+                return self._write(content, count)
+            except OSError as error:
+                self.fault = error
+        self.seek(count, 1)
+        return count
+
+    def truncate(self, size: int | None = None) -> int:
+        """Make the file as long, or go on as if."""
+        if self.fault is None:
+            try:
+                return super().truncate(size)
+            except OSError as error:
+                self.fault = error
+        return self.tell() if size is None else size
+
+    def _write(self, content: Any, count: int) -> int:
+        done = 0
+        while done < count:
+            done += super().write(memoryview(content).cast("B")[done:])
+        return count
 
 
 def read_record(path: Path) -> xr.Dataset:
@@ -64,55 +152,12 @@ def read_record(path: Path) -> xr.Dataset:
 
     Given the folder of a checkpoint, it is the record so far of a run that goes on, or was killed.
     """
-    blocks = blocks_in(path) if path.is_dir() and not (path / RECORD_FILE).is_file() else []
-    if blocks:
-        return _joined([_read_block(part) for part in blocks])
+    if path.is_dir() and not (path / RECORD_FILE).is_file() and is_growing(path):
+        growing = open_growing(path)
+        growing.check_size()
+        return growing.dataset().load()
     with xr.open_dataset(path / RECORD_FILE if path.is_dir() else path, engine="h5netcdf") as record:
         return record.load()
-
-
-def block_name(row: int) -> str:
-    """Name of the file with the records of a run from a row on, while it goes on."""
-    return f"record-{row:09d}.npz"
-
-
-def blocks_in(folder: Path) -> list[Path]:
-    """Those files of a folder, in order."""
-    return sorted(folder.glob(f"record-{9 * '[0-9]'}.npz"))
-
-
-def block(data: xr.Dataset) -> bytes:
-    """Return a dataset as the content of such a file: a hundredth of the time that NetCDF takes."""
-    variables = {str(name): variable for name, variable in data.variables.items()}
-    words = {
-        "attributes": data.attrs,
-        "coordinates": [str(name) for name in data.coords],
-        "variables": {name: [x.dims, x.attrs] for name, x in variables.items()},
-    }
-    content = BytesIO()
-    arrays: dict[str, Any] = {"": json.dumps(words), **{name: x.values for name, x in variables.items()}}
-    np.savez(content, **arrays)
-    return content.getvalue()
-
-
-def _read_block(path: Path) -> xr.Dataset:
-    try:
-        with np.load(path) as stored:
-            words = json.loads(str(stored[""]))
-            found = {name: (dims, stored[name], attrs) for name, (dims, attrs) in words["variables"].items()}
-    except (BadZipFile, EOFError) as error:  # cut off by a power failure, say
-        raise ValueError(f"{path.name}: {error}") from None
-    return xr.Dataset(found, attrs=words["attributes"]).set_coords(words["coordinates"])
-
-
-def _joined(parts: list[xr.Dataset]) -> xr.Dataset:
-    """One record of parts that follow one another; what has no instants is the last one's."""
-    last = parts[-1]
-    for dimension in {"time", "revolution"} & set(last.dims):
-        names = [name for name, variable in last.variables.items() if dimension in variable.dims]
-        of_all = xr.concat([part[names] for part in parts], dimension, join="override")
-        last = last.drop_dims(dimension).merge(of_all, compat="override")
-    return last.assign_attrs(parts[-1].attrs)
 
 
 def table_columns(record: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
@@ -141,9 +186,11 @@ def table_columns(record: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]
 
 
 def _write_table(record: xr.Dataset, path: Path) -> None:
-    names, columns = zip(*table_columns(record), strict=True)
     with path.open("w", encoding="utf-8", newline="\n") as file:
-        np.savetxt(file, np.column_stack(columns), "%.10g", ",", header=",".join(names), comments="")
+        for row in range(0, max(1, record.sizes["time"]), _LINES):
+            names, columns = zip(*table_columns(record.isel(time=slice(row, row + _LINES))), strict=True)
+            header = "" if row else ",".join(names)
+            np.savetxt(file, np.column_stack(columns), "%.10g", ",", header=header, comments="")
 
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:

@@ -13,7 +13,8 @@ from orchestrator.case.carry_out import carry_out
 from orchestrator.case.conclude import completed, conclude
 from orchestrator.case.prepare import prepare
 from orchestrator.case.request import RunRequest
-from orchestrator.case.simulate import Execution, default_threads
+from orchestrator.case.simulate import Execution
+from orchestrator.case.threads import default_threads
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.folder import fmu_folder
 from orchestrator.outcome import Outcome

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from orchestrator.case.simulate import Execution, default_threads, simulate
+from orchestrator.case.simulate import Execution, simulate
+from orchestrator.case.threads import default_threads
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master.threads import StepThreads
 from orchestrator.outcome import Outcome

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,9 @@ from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome
 from orchestrator.report.source import load_results
-from orchestrator.results.record_files import block_name, read_record
+from orchestrator.results import growing_record
+from orchestrator.results.growing_record import HEAD_FILE, ROWS_FILE, open_growing
+from orchestrator.results.record_files import read_record, write_record
 from tests.faults import fault
 from tests.orchestrator.foreign import call
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
@@ -52,7 +55,7 @@ def killed_at(instant):
 
 
 @pytest.mark.parametrize("change", CASES.values(), ids=CASES)
-def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_path):
+def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_path, monkeypatch):
     interval = {"interval": 3e-3}
     scenario = toy_scenario(tmp_path, event=BLADE, record=interval, **change)
     whole = simulate(scenario, toy)
@@ -66,6 +69,7 @@ def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_p
     with pytest.raises(Killed):
         simulate(scenario, toy, killed_at(0.025), Execution(Checkpoints(folder, 4e-3, {}), saved))
     saved = checkpoint.read(folder)
+    monkeypatch.setattr(record_so_far, "HELD", 0)  # everything is written as it is complete
     result = simulate(scenario, toy, None, Execution(None, saved))
     assert result.record.identical(whole.record)
     assert (result.steps, result.evaluations) == (whole.steps, whole.evaluations)
@@ -79,7 +83,8 @@ def test_the_record_is_written_as_it_goes(toy, tmp_path):
     folder = tmp_path / "saved"
     with pytest.raises(Killed):
         simulate(scenario, toy, killed_at(0.053), Execution(Checkpoints(folder, 2e-2, {})))
-    (folder / block_name(90)).write_bytes((folder / block_name(0)).read_bytes())  # of another run
+    with (folder / ROWS_FILE).open("ab") as file:
+        file.write(b"of a block that was not finished")
     saved = checkpoint.read(folder)
     with pytest.raises(Killed):
         simulate(scenario, toy, killed_at(0.088), Execution(Checkpoints(folder, 2e-2, {}), saved))
@@ -94,24 +99,88 @@ def test_the_record_is_written_as_it_goes(toy, tmp_path):
     assert source.record.sizes["time"] == 28
 
 
+def test_what_is_written_is_not_in_memory(toy, tmp_path, monkeypatch):
+    """Record, table and what is read of single series are those of a run in memory, to the bit."""
+    scenario = toy_scenario(tmp_path, event=BLADE, record={"interval": 1e-3, "revolutions": True}, end=0.2)
+    whole = simulate(scenario, toy).record
+    monkeypatch.setattr(record_so_far, "HELD", 20_000)
+    lines = []
+    execution = Execution(record=tmp_path / "running", warn=lines.append)
+    found = simulate(scenario, toy, None, execution).record
+    growing = open_growing(tmp_path / "running")
+    assert len(growing.blocks) > 5 and not lines
+    assert growing.counts == (201, whole.sizes["revolution"])
+    assert found["force"].variable._in_memory is False
+    for key in (
+        {"bearing": 0},
+        {"time": [3, 150, 20]},
+        {"time": slice(190, 3, -40), "axis": 1},
+        {"time": -1},
+    ):
+        np.testing.assert_array_equal(found["force"].isel(key).values, whole["force"].isel(key).values)
+    write_record(found, tmp_path / "one")
+    write_record(whole, tmp_path / "other")
+    assert read_record(tmp_path / "one").identical(whole)
+    one, other = ((tmp_path / name / "record.csv").read_bytes() for name in ("one", "other"))
+    assert one == other
+
+
+@fault(
+    "process",
+    "a checkpoint whose record so far is gone, cut off, or another run's",
+    "exit 2; file, what it holds, what the checkpoint goes on from",
+    guard="orchestrator.case.record_so_far:RecordSoFar.go_on",
+)
+@pytest.mark.parametrize(
+    ("harm", "said"),
+    [
+        (lambda folder: (folder / HEAD_FILE).unlink(), "no record of a run that goes on"),
+        (lambda folder: (folder / HEAD_FILE).write_bytes(b"PK"), "no record of a run that goes on"),
+        (lambda folder: (folder / ROWS_FILE).unlink(), "has 0 bytes of"),
+        (lambda folder: os.truncate(folder / ROWS_FILE, 1000), "has 1000 bytes of"),
+        (lambda folder: _other_series(folder), "is of a record with other series"),
+        (lambda folder: _other_rows(folder), "none of which ends at the 5 and 0 that are asked for"),
+    ],
+)
+def test_a_record_so_far_that_does_not_fit_is_refused(harm, said, toy, tmp_path):
+    scenario, folder = toy_scenario(tmp_path, event=BLADE, record={"interval": 1e-3}), tmp_path / "saved"
+    with pytest.raises(Killed):
+        simulate(scenario, toy, killed_at(0.0041), Execution(Checkpoints(folder, 2e-3, {})))
+    saved = checkpoint.read(folder)
+    harm(folder)
+    with pytest.raises(CheckpointError, match=said) as caught:
+        simulate(scenario, toy, None, Execution(None, saved))
+    assert str(folder) in str(caught.value) and "put the files back, or start anew" in str(caught.value)
+
+
+def _other_series(folder):
+    growing = open_growing(folder)
+    replace(growing, rest=growing.rest.drop_vars("moment"))._write_head()
+
+
+def _other_rows(folder):
+    growing = open_growing(folder)
+    replace(growing, blocks=growing.blocks[1:])._write_head()
+
+
 @fault(
     "machine",
     "a full disk while the record is written as it goes",
-    "the run goes on, says so, and the next file has the instants",
+    "the run goes on, says so, and holds the instants until they can be written",
     guard="orchestrator.case.record_so_far:RecordSoFar.write",
 )
 def test_a_file_that_cannot_be_written_is_made_up_for(toy, tmp_path, monkeypatch):
     scenario, folder, told = toy_scenario(tmp_path, event=BLADE), tmp_path / "saved", []
-    made, failing = record_so_far.block, iter([False, True])
+    made, failing = growing_record._without_rows, iter([False, True])
 
-    def block(data):
+    def without_rows(data):
         if next(failing, False):
             raise OSError("disk full")
         return made(data)
 
-    monkeypatch.setattr(record_so_far, "block", block)
+    monkeypatch.setattr(growing_record, "_without_rows", without_rows)
     with pytest.raises(Killed):
-        simulate(scenario, toy, killed_at(0.0141), Execution(Checkpoints(folder, 4e-3, {}, told.append)))
+        simulate(scenario, toy, killed_at(0.0141), Execution(Checkpoints(folder, 4e-3, {}), warn=told.append))
     assert len(told) == 1
     assert "disk full" in told[0]
     np.testing.assert_allclose(read_record(folder)["time"], 1e-3 * np.arange(13), atol=1e-12)
@@ -124,7 +193,7 @@ def test_a_checkpoint_is_there_from_the_start_on(toy, tmp_path):
     saved = checkpoint.read(tmp_path / "saved")
     assert (saved.time, saved.about) == (0.0, {"a": 1})
     names = [path.name for path in sorted((tmp_path / "saved").iterdir())]
-    assert names == [checkpoint.FILE, block_name(0)]
+    assert names == [checkpoint.FILE, HEAD_FILE, ROWS_FILE]
     result = simulate(scenario, toy, None, Execution(None, saved))
     assert result.record.identical(simulate(scenario, toy).record)
 

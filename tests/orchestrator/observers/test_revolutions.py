@@ -40,10 +40,10 @@ def test_orders_and_extremes_of_a_motion_that_is_known_at_falling_speed():
     kept = Revolutions(machine)
     kept.begin(None)
     driven(machine, kept, 3000)
-    assert kept.size == int(machine.angle / (2.0 * np.pi))
+    assert kept.rows.held == int(machine.angle / (2.0 * np.pi))
     found = kept.amplitudes[1:, :, 0]
     for index, (order, amplitude) in enumerate(AMPLITUDES.items()):
-        turned = np.exp(2j * np.pi * order * np.arange(1, kept.size))  # angles count within a revolution
+        turned = np.exp(2j * np.pi * order * np.arange(1, kept.rows.held))  # angles count within a revolution
         np.testing.assert_allclose(found[:, index, 0] / turned, amplitude, atol=2e-3, err_msg=str(order))
         np.testing.assert_allclose(found[:, index, 1], 2.0 * found[:, index, 0], rtol=1e-9)
     assert np.isnan(kept.amplitudes[0, 0]).all()
