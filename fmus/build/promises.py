@@ -6,7 +6,7 @@ saved state to take a step back: the next step on other inputs overwrites all.
 ``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word, and no
 pad tilts in its parameter ``bore``.
 
-Neither holds while its parameter ``film.temperature`` is ``followed``.
+Neither holds while its parameter ``film.temperature`` is ``followed``, or ``layer.thickness`` is above 0.
 
 ``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
 
@@ -21,6 +21,7 @@ from xml.etree.ElementTree import Element, SubElement
 MEMORYLESS, ISOTROPIC, AFFINE = "memoryless", "isotropic", "affine"
 BOUNDARY, BORE = "film.boundary", "bore"
 TEMPERATURE, FOLLOWED = "film.temperature", "followed"
+LAYER = "layer.thickness"
 _TOOL, _MARK = "bladeloss", "Promises"
 
 

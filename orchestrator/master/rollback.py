@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from fmus import port
-from fmus.build.promises import BORE, BOUNDARY, FOLLOWED, MEMORYLESS, TEMPERATURE, memoryless_with
+from fmus.build.promises import BORE, BOUNDARY, FOLLOWED, LAYER, MEMORYLESS, TEMPERATURE, memoryless_with
 from orchestrator.errors import FmuError
 from orchestrator.fmi.unit import Unit, UnitError
 from orchestrator.master.graph import Graph
@@ -90,6 +90,8 @@ class Rollback:
 def forgets(unit: Unit) -> bool:
     """Whether a unit promises to be memoryless, with the parameters that it has."""
     if TEMPERATURE in unit.file.variables and unit.get_string(TEMPERATURE) == FOLLOWED:
+        return False
+    if LAYER in unit.file.variables and unit.get_real([LAYER])[0] > 0.0:
         return False
     promises = unit.file.promises
     if MEMORYLESS in promises or not any(word.startswith(MEMORYLESS) for word in promises):

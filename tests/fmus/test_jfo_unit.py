@@ -63,11 +63,19 @@ def test_it_is_no_trifle(units):
     assert abs(force[0] / force[1] - 1.0) > 1e-3
 
 
-@pytest.mark.parametrize(("boundary", "forgotten"), [("guembel", True), ("reynolds", True), ("jfo", False)])
-def test_the_master_marks_units_that_remember_only(built, tmp_path, boundary, forgotten):
+@pytest.mark.parametrize(
+    ("values", "forgotten"),
+    [
+        ({"film.boundary": "guembel"}, True),
+        ({"film.boundary": "reynolds"}, True),
+        ({"film.boundary": "jfo"}, False),
+        ({"layer.thickness": 5e-3}, False),
+    ],
+)
+def test_the_master_marks_units_that_remember_only(built, tmp_path, values, forgotten):
     file = FmuFile(built["bearing_v1.fmu"], tmp_path)
     unit = Unit(file, "bearing")
-    unit.set_parameters({"film.boundary": boundary})
+    unit.set_parameters(values)
     assert forgets(unit) is forgotten
     unit.close()
     file.end_library()

@@ -18,7 +18,7 @@ from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
 from bearing_fmu.films.corners import SPREAD, leaving, mix
 from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
-from bearing_fmu.films.tilted.on_layer import LAYERED
+from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
@@ -76,7 +76,7 @@ POCKETED = replace(TILTED, name="aligned", tilts=False)
 def make(values: Mapping[str, Value]) -> Film:
     """Make the film of these parameters, see `bearing_fmu.depths.Depth.film`."""
     if float(values.get("layer.thickness", 0.0)) > 0.0:
-        return film_of(ON_LAYER, values)
+        return FilmOnLayer.of(ON_LAYER, values)
     parameters = BearingParameters.of(values)
     solver = SOLVER if parameters.boundary == "guembel" else RUPTURING
     if parameters.has_pockets:

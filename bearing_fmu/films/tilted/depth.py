@@ -11,7 +11,7 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
-from bearing_fmu.films.tilted.on_layer import LAYERED
+from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.films.tilted.solve import solve_tilted
 from bearing_fmu.films.tilted.workspace import STOCK, TiltedFilm, tilted_film
 from bearing_fmu.parameters import BearingParameters
@@ -43,4 +43,6 @@ def make(values: Mapping[str, Value]) -> Film:
         return TiltingFilm.of(SOLVER, values)
     if values.get("film.boundary") == "jfo":
         return ConservingFilm.of(CONSERVING, values)
-    return film_of(LAYERED if float(values.get("layer.thickness", 0.0)) > 0.0 else SOLVER, values)
+    if float(values.get("layer.thickness", 0.0)) > 0.0:
+        return FilmOnLayer.of(LAYERED, values)
+    return film_of(SOLVER, values)

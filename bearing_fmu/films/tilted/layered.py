@@ -4,7 +4,8 @@ At each node the rigid gap plus c times the film's pressure is the gap s without
 `bearing_fmu.contact.layer` gives the gap; there the oil flows by Patir and Cheng's flow factor, and the
 wedge is the average gap of `bore.gap`. The discrete equations are those of `reynolds`, now not linear in
 the pressure. Where a film presses the wall back it advects its own deflection, which is taken mostly from
-the upstream column. The wall's rate of deformation is left out of the squeezed volume: it would be a memory.
+the upstream column. How far the wall had given way before a step, see `deformation`, makes its rate, which
+counts in the squeezed volume as that of the journal does, by implicit Euler.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ UPSTREAM = 0.75
 CLUSTERING, GRADING = 2.4, 1.3
 _LINES = 4  #: for each row, on which the asperities' force is summed
 _FLAT = 1e-12
+KEPT = 3  #: What stands before the nodes in what is remembered, see `deformation`
 
 
 class LayeredFilm(NamedTuple):
@@ -57,11 +59,17 @@ class LayeredFilm(NamedTuple):
     usual: Floats  #: (RESULTS + CONTACT_RESULTS,) work space of two solutions
     stiff: Floats  #: (RESULTS,) work space, of the rigid bore
     change: Floats  #: (9,) how far the layer takes part, by q and v; the last: how far it did, 0 to 1
+    time: Floats  #: (2,) length of the step, s, 0 for a film in balance; the rate 1/s that follows from it
+    then: Floats  #: (KEPT + n m,) what is remembered from before the step, see `deformation`
+    now: Floats  #: (KEPT + n m,) what is remembered after it
+    from_rigid: Floats  #: (n, n) rows of the layered film from those of the rigid one
+    drift: Floats  #: (4,) work space
+    was: Floats  #: (2, n, m) how far the wall had given way at the columns of now, and its slope by the angle
 
 
 def layered_film(
-    film: TiltedFilm, rigid: TiltedFilm, basis: AxialBasis, first: float, table: Floats, sigma: float,
-    compliance: float, hardness: float,
+    film: TiltedFilm, rigid: TiltedFilm, basis: AxialBasis, from_rigid: Floats, first: float, table: Floats,
+    sigma: float, compliance: float, hardness: float,
 ) -> LayeredFilm:  # fmt: skip
     """Prepare the film, of this axial basis, with its own work space."""
     n, m = film.face.shape[1], film.circle.shape[2]
@@ -84,6 +92,12 @@ def layered_film(
         usual=np.zeros(RESULTS + CONTACT_RESULTS),
         stiff=np.zeros(RESULTS),
         change=np.zeros(9),
+        time=np.zeros(2),
+        then=np.zeros(KEPT + n * m),
+        now=np.zeros(KEPT + n * m),
+        from_rigid=from_rigid,
+        drift=np.zeros(4),
+        was=np.zeros((2, n, m)),
     )
 
 
@@ -149,20 +163,28 @@ def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
 
 
 @inner_kernel
-def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> float:
-    """Jacobian, transposed as the solver wants it, and the residual; returns its norm."""
+def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, whole: bool) -> float:
+    """Residual, and where the `whole` is wanted the Jacobian, transposed as the solver wants it.
+
+    Returns
+    -------
+    float
+        Norm of the residual.
+    """
     film = layered.film
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
     width = film.coupling.shape[0] // m
     block, soft, square = n * width, layered.constants[2], 0.0
+    rate, cell = layered.time[1], 2.0 * np.pi / m
     from_here = UPSTREAM if speed >= 0.0 else 1.0 - UPSTREAM
-    cos, sin = film.rings[1, COS], film.rings[1, SIN]
+    cos, sin, metric = film.rings[1, COS], film.rings[1, SIN], film.rings[0, METRIC]
     b, sides, pressures = layered.blocks[0], film.sides, film.pressures[0]
     _set_columns(layered, ambient)
     _set_faces(layered, speed, ambient)
     axial = film.column[CONDUCTANCE].reshape(-1)
-    b[:] = 0.0
-    for i in range(m):
+    if whole:
+        b[:] = 0.0
+    for i in range(m if whole else 0):
         for k in range(0, block, LANES):
             add_rows(b, i * block + k, axial, i, length, film.products, k, block, n + 2)
     for j in range(n):
@@ -175,15 +197,19 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> 
             back = i - 1 if i > 0 else m - 1
             fore = i + 1 if i + 1 < m else 0
             squeeze[i] = uy * (cos[i] - cos[back]) - ux * (sin[i] - sin[back])
-            here = soft if pressures[j, i] + ambient > 0.0 else 0.0
-            there = soft if pressures[j, fore] + ambient > 0.0 else 0.0
-            # flow at the face after column i: by the pressure of column i, and less that of the next
-            own = along[i] + here * (from_here * wedge[i] - 0.5 * bent[i])
-            next_ = along[i] - there * ((1.0 - from_here) * wedge[i] - 0.5 * bent[i])
+            gives = cell * metric[i] * rate
+            squeeze[i] += gives * (soft * max(pressures[j, i] + ambient, 0.0) - layered.was[0, j, i])
             at = i * width + j
-            layered.lower[at], layered.upper[at] = own, next_
-            b[i * block + j * width + j] += own + 2.0 * weight * t2[i] * squeeze[i] * here
-            b[fore * block + j * width + j] += next_
+            if whole:
+                here = soft if pressures[j, i] + ambient > 0.0 else 0.0
+                there = soft if pressures[j, fore] + ambient > 0.0 else 0.0
+                # flow at the face after column i: by the pressure of column i, and less that of the next
+                own = along[i] + here * (from_here * wedge[i] - 0.5 * bent[i])
+                next_ = along[i] - there * ((1.0 - from_here) * wedge[i] - 0.5 * bent[i])
+                layered.lower[at], layered.upper[at] = own, next_
+                b[i * block + j * width + j] += own
+                b[i * block + j * width + j] += 2.0 * weight * here * (t2[i] * squeeze[i] + t1[i] * gives)
+                b[fore * block + j * width + j] += next_
             flow = -along[i] * pressures[n + j, i] + weight * speed * t[i]
             before = -film.face[CONDUCTANCE, j, back] * pressures[n + j, back] + weight * speed * t[back]
             sides[at] = before - flow - 2.0 * weight * t1[i] * squeeze[i]
@@ -192,7 +218,7 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> 
             flow = film.column[CONDUCTANCE, q, i] * pressures[2 * n + q, i]
             for j in range(n):
                 sides[i * width + j] -= film.slopes[q * n + j] * flow
-            if q < n and pressures[q, i] + ambient > 0.0:
+            if whole and q < n and pressures[q, i] + ambient > 0.0:
                 by_gap = film.column[POWER, q, i] * film.column[OPEN_1, q, i] / film.column[OPEN, q, i]
                 at = i * block + q * width
                 for j in range(n):

@@ -4,6 +4,9 @@ Newton's method alone wanders where a whole region overlaps, since there almost 
 left. So it follows a wall that takes time to give way (pseudo-transient continuation; Kelley and Keyes 1998,
 SIAM J. Numer. Anal. 35, 508): quickly, its rate falling with the residual (Mulder and van Leer 1985), and
 where that does not end, with a rate that keeps each step to what its linear equations say.
+
+Where the wall's deformation before a step is known it is the start, and the wall does take time: there the
+first factor mostly serves until the pressure stands, and one more is made for the tangent.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.films.tilted.deformation import RATE, bring_over
 from bearing_fmu.films.tilted.layered import LayeredFilm, linearise
 from bearing_fmu.films.tilted.lines import SHARE
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
@@ -23,10 +27,13 @@ from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
 
-#: Of the quick search and of the careful one.
-_QUICK, _CAREFUL = 30, 400
-#: Of a step of the pressure: one more would change it by about the square of that, and one more is made.
-_PRECISION = 1e-3
+#: Of the search from the step before, of the quick one and of the careful one.
+_PLAIN, _QUICK, _CAREFUL = 24, 30, 400
+#: Of a step with an old factor over the one before: what calls for a new one.
+_SLOW = 0.35
+#: Of a step of the pressure: one more would change it by about the square of that, and one more is made;
+#: of one with an old factor.
+_PRECISION, _CHORD = 1e-3, 1e-5
 #: Roughnesses by which a step presses the wall back at most, in either search.
 _STEPS = (3.0, 300.0)
 #: Rate at which the wall gives way at first, over the flow's, and where it is none.
@@ -87,14 +94,41 @@ def _misfit(layered: LayeredFilm, rate: float) -> float:
 
 
 @inner_kernel
-def _begin(layered: LayeredFilm) -> None:
-    """Put a pressure into `sides` with which nothing overlaps."""
-    film = layered.film
+def _begin(layered: LayeredFilm, ambient: float) -> None:
+    """Put a pressure into `sides`: that before the step, or without one such that nothing overlaps."""
+    film, soft = layered.film, layered.constants[2]
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     for j in range(n):
         for i in range(m):
-            film.sides[i * width + j] = max(-film.column[GAP, j, i], 0.0) / layered.constants[2]
+            if layered.time[RATE] > 0.0:
+                film.sides[i * width + j] = layered.was[0, j, i] / soft - ambient
+            else:
+                film.sides[i * width + j] = max(-film.column[GAP, j, i], 0.0) / soft
+
+
+@inner_kernel
+def _follow(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> bool:
+    """Find the pressure from that before the step, as `_search`; False where this does not end."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    width = film.coupling.shape[0] // m
+    b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
+    most = _STEPS[0] * layered.constants[1] / layered.constants[2]
+    _begin(layered, ambient)
+    step, renew, found = np.inf, True, False
+    for _ in range(_PLAIN):
+        unfold(film, 0, 0, 1)
+        linearise(layered, v, speed, ambient, renew)
+        if renew and not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
+            return False
+        solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
+        before, step = step, _advance(layered, ambient, most)
+        if found:
+            return step < _PRECISION
+        found = step < (_PRECISION if renew else _CHORD)
+        renew = found or step > _SLOW * before
+    return False
 
 
 @inner_kernel
@@ -105,15 +139,15 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
     width = film.coupling.shape[0] // m
     b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
     flow = abs(speed) + 2.0 * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3])
-    _begin(layered)
+    _begin(layered, ambient)
     rate, before, found, fresh = _RATE, 0.0, False, True
     for round_ in range(_QUICK + _CAREFUL):
         careful = round_ >= _QUICK
         if round_ == _QUICK:
-            _begin(layered)
+            _begin(layered, ambient)
             rate, found, fresh = _RATE, False, True
         unfold(film, 0, 0, 1)
-        residual = linearise(layered, v, speed, ambient)
+        residual = linearise(layered, v, speed, ambient, True)
         if found:
             rate = 0.0
         elif careful and not fresh:
@@ -152,7 +186,10 @@ def solve_layered(
     width = film.coupling.shape[0] // m
     shape_gap(film, None, q, sigma, part)
     film.mixed[SHARE] = 0.0
-    status = _search(layered, v, speed, ambient)
+    bring_over(layered)
+    status = OK
+    if layered.time[RATE] == 0.0 or not _follow(layered, v, speed, ambient):
+        status = _search(layered, v, speed, ambient)
     if status == OK:
         unfold(film, 0, 0, 1)
         transpose_ring(layered.blocks[0], layered.blocks[1], layered.blocks[2], m, n, width)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.layer import YIELDING, deflection
 from bearing_fmu.contact.slice import AREA, FORCE, LOAD, PRESSURE, WIPED
+from bearing_fmu.films.tilted.deformation import add_deformation, add_drift
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.reynolds import unfold
 from bearing_fmu.films.tilted.tangent import (
@@ -149,10 +150,12 @@ def add_layered_tangent(
     explicit = layered.explicit
     explicit[:] = result[STIFFNESS : STIFFNESS + 16]
     prepare(film, speed)
+    damping(film, result)
     for k in range(4):
         residual_tangent(film, None, q, v, k)
+        add_deformation(layered, k, ambient, result)
         contract(film, k, result)
     for k in range(16):
         result[STIFFNESS + k] += explicit[k]
     add_grid_motion(film, result)
-    damping(film, result)
+    add_drift(layered, v, ambient, result)

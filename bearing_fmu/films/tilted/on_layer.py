@@ -22,8 +22,9 @@ from bearing_fmu.contact.contact import sliding_sense
 from bearing_fmu.contact.layer import layer_table
 from bearing_fmu.contact.slice import AREA, CONTACT_RESULTS, FORCE, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel
-from bearing_fmu.film import Solver
+from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.corners import SPREAD, leaving, mix, rise
+from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, STEP, remember
 from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
@@ -31,6 +32,7 @@ from bearing_fmu.films.tilted.solve import solve_tilted
 from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.outputs import OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import DAMPING, RESULTS, STIFFNESS
 from bearing_fmu.scales import Scales
@@ -98,6 +100,8 @@ def _solve_soft(
         status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, part, result)
         if status != OK:
             break
+        if (spread == 1) == (share >= 0.5):
+            remember(film, film.film, ON_LAYER, scales.ambient)
         contact[:] = 0.0
         add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact)
         if spread == 0 and share > 0.0:
@@ -122,6 +126,7 @@ def _solve_on_layer(
         share = _gives_way(film, q, gap, result, film.change)
         film.change[8] = share
         if share == 0.0:
+            remember(film, film.rigid, OF_RIGID, scales.ambient)
             return OK
         film.stiff[:] = result
     status = _solve_soft(film, scales, q, v, speed, result, contact)
@@ -140,16 +145,53 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     first, table = layer_table(parameters)
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
     aspect, columns, rows = parameters.diameter / parameters.width, parameters.columns, parameters.rows
+    basis = axial_basis(rows, CLUSTERING)
     return layered_film(
         tilted_film(columns, rows, aspect, space, CLUSTERING),
         tilted_film(columns, rows, aspect, space),
-        axial_basis(rows, CLUSTERING),
+        basis,
+        axial_basis(rows).interpolation(basis.nodes[:rows]),
         first,
         table,
         sigma=parameters.roughness / parameters.clearance,
         compliance=parameters.layer_compliance * unit / parameters.clearance,
         hardness=parameters.layer_hardness / unit,
     )
+
+
+class FilmOnLayer(Film):
+    """Prepared evaluator of one bearing on a soft layer, see `bearing_fmu.depths.Film`.
+
+    Its state is how far the wall has given way, see `deformation`; empty before the first evaluation, in
+    which the wall is at rest.
+    """
+
+    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
+        """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
+        out = np.empty(OUTPUTS)
+        status, now = self._advance(state, inputs, self.offset, dt, out)
+        if status:
+            raise self.failure(status, inputs, self.offset)
+        return out, now
+
+    def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
+        """Evaluate the port with the wall at rest, see `Film.solve`."""
+        return self._advance(self.rest(), inputs, offset, 0.0, out)[0]
+
+    def _advance(
+        self, state: Floats, inputs: Floats, offset: Floats, dt: float, out: Floats
+    ) -> tuple[int, Floats]:
+        """A code of `FilmStatus`, and what is remembered after the step."""
+        space, data = self.take()
+        try:
+            layered: LayeredFilm = data[3]
+            layered.time[STEP] = dt if state.size else 0.0
+            if state.size:
+                layered.then[:] = state
+            status = self._kernel(inputs, offset, out, *data)
+            return status, layered.now.copy()
+        finally:
+            self.bring_back(space)
 
 
 LAYERED = Solver(

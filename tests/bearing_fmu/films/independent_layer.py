@@ -19,11 +19,19 @@ REACH, DEEPEST = 7.0, -60.0
 
 
 class Solution(NamedTuple):
-    """Film force (2,) and load of the asperities, N; largest pressure, Pa."""
+    """Film force (2,) and load of the asperities, N; largest pressure, Pa; pressure of the cells, scaled."""
 
     film_force: np.ndarray
     contact_force: float
     p_max: float
+    pressure: np.ndarray
+
+
+class Wall(NamedTuple):
+    """Pressure of the cells before a step, on the same grid, and its length, s."""
+
+    pressure: np.ndarray
+    step: float
 
 
 class Asperities:
@@ -66,9 +74,14 @@ def _open(u: np.ndarray) -> np.ndarray:
 
 
 def solve(
-    p: BearingParameters, q: np.ndarray, v: np.ndarray, speed: float, cells: tuple[int, int]
+    p: BearingParameters,
+    q: np.ndarray,
+    v: np.ndarray,
+    speed: float,
+    cells: tuple[int, int],
+    wall: Wall | None = None,
 ) -> Solution:
-    """Solve on cells around and along; q and v in m, rad, m/s, rad/s; positive speed."""
+    """Solve on cells around and along; q, v in m, rad, m/s, rad/s; positive speed; no wall: at rest."""
     m, n = cells
     half, c, sigma = 0.5 * p.width, p.clearance, p.roughness / p.clearance
     unit = 6.0 * p.viscosity * (p.radius / c) ** 2
@@ -113,9 +126,12 @@ def solve(
         axial = -aspect * d_phi[:, None] * flow_z * np.diff(along, axis=1) / np.diff(z_all)
         u, step = asperities.gap((gap + back) / sigma), 1e-5
         opening = (_open(asperities.gap((gap + back) / sigma + step)) - _open(u)) / step
-        return around - np.roll(around, 1, axis=0) + np.diff(axial, axis=1) + 2.0 * area * opening * squeeze
+        rate = squeeze
+        if wall:
+            rate = squeeze + (back - soft * np.maximum(wall.pressure, 0.0)) / wall.step
+        return around - np.roll(around, 1, axis=0) + np.diff(axial, axis=1) + 2.0 * area * opening * rate
 
-    pressure = np.maximum(-gap, 0.0) / soft
+    pressure = wall.pressure if wall else np.maximum(-gap, 0.0) / soft
     pattern = _neighbours(m, n)
     rate = 2.0 * speed * soft
     for _ in range(120):
@@ -137,7 +153,7 @@ def solve(
     scale = p.radius * half
     force = -unit * scale * np.array([(film * area * f(phi)[:, None]).sum() for f in (np.cos, np.sin)])
     load = scale * (asperities.load((gap + soft * film) / sigma) * area).sum()
-    return Solution(force, float(load), float(unit * film.max()))
+    return Solution(force, float(load), float(unit * film.max()), pressure)
 
 
 def _neighbours(m: int, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

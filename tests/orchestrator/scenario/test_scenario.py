@@ -127,7 +127,7 @@ def test_a_file_that_is_no_toml_is_named(scenario_file):
 
 
 def test_a_missing_file_lists_the_bundled_scenarios():
-    known = "coast-down, coast-down-slow, lemon, paper, small, subharmonic, tilting, turbulent"
+    known = "coast-down, coast-down-slow, lemon, lined, paper, small, subharmonic, tilting, turbulent"
     assert f"allowed are {known}" in problems("papper")[0]
 
 

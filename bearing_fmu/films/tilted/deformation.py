@@ -1,0 +1,147 @@
+"""How far the wall of a soft layer had given way: what a step begins with, and its rate of deformation.
+
+The layer does not turn, so c p belongs to places of the bore, whereas the grid goes with the journal. What is
+remembered is c p at the nodes, over the clearance, and the parameter of the grid's map (`kernels.grid`). That
+is inverted exactly: a column of now has its place on the uniform circle of then, where c p is interpolated by
+the cubic convolution of Keys (1981, IEEE Trans. Acoust. Speech Signal Process. 29, 1153), which has a
+continuous slope. Over a step, by implicit Euler, ::
+
+    d(c p)/dt  ->  (c p - c p of then at the same place) / dt
+
+A node that goes over the wall sees what was pressed there. Over the step this is the node's way times the
+slope, over dt: it counts as one with the velocity, and its change stands in the damping, as that of moving
+faces in a mass-conserving film does and for the same reason (`films.jfo.tangent`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearing_fmu.films.tilted.layered import KEPT, LayeredFilm
+from bearing_fmu.films.tilted.tangent import BY_METRIC, TANGENT
+from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
+from bearing_fmu.result import DAMPING, STIFFNESS
+
+Floats = NDArray[np.float64]
+
+#: Length of the step and the rate 1/s that follows from it, 0 where nothing is remembered.
+STEP, RATE = 0, 1
+#: What is remembered first: nothing, of the rigid film, of that on its layer; then the map's parameter (2).
+NOTHING, OF_RIGID, ON_LAYER = 0.0, 1.0, 2.0
+
+
+@inner_kernel
+def remember(layered: LayeredFilm, film: TiltedFilm, of: float, ambient: float) -> None:
+    """Note how far the wall has given way; where the film is ruptured what the pressure would make of it."""
+    n, m = layered.was.shape[1], layered.was.shape[2]
+    now, soft = layered.now, layered.constants[2]
+    now[0], now[1], now[2] = of, film.grading[0, 0], film.grading[0, 1]
+    for j in range(n):
+        pressure = film.pressures[0, j]
+        for i in range(m):
+            now[KEPT + j * m + i] = soft * (pressure[i] + ambient)
+
+
+@inner_kernel
+def bring_over(layered: LayeredFilm) -> None:
+    """Bring what is remembered to the columns of now."""
+    n, m = layered.was.shape[1], layered.was.shape[2]
+    then, was, cos, sin = layered.then, layered.was, layered.film.rings[0, COS], layered.film.rings[0, SIN]
+    layered.time[RATE] = 1.0 / layered.time[STEP] if layered.time[STEP] > 0.0 and then[0] != NOTHING else 0.0
+    was[:] = 0.0
+    if layered.time[RATE] == 0.0:
+        return
+    rigid, ax, ay = then[0] == OF_RIGID, then[1], then[2]
+    for i in range(m):
+        # (z - a) / (1 - conj(a) z) with z = exp(i phi) is exp(i t) on the uniform circle of then
+        real, imaginary = 1.0 - ax * cos[i] - ay * sin[i], ay * cos[i] - ax * sin[i]
+        dx, dy = cos[i] - ax, sin[i] - ay
+        angle = np.arctan2(dy * real - dx * imaginary, dx * real + dy * imaginary)
+        to_place = m / (2.0 * np.pi)
+        place = angle * to_place
+        steep = to_place * (1.0 - ax * ax - ay * ay) / (real * real + imaginary * imaginary)
+        first = int(np.floor(place))
+        x = place - first
+        c0, c1 = x * (-0.5 + x * (1.0 - 0.5 * x)), 1.0 + x * x * (1.5 * x - 2.5)
+        c2, c3 = x * (0.5 + x * (2.0 - 1.5 * x)), x * x * (0.5 * x - 0.5)
+        d0, d1 = -0.5 + x * (2.0 - 1.5 * x), x * (4.5 * x - 5.0)
+        d2, d3 = 0.5 + x * (4.0 - 4.5 * x), x * (1.5 * x - 1.0)
+        k0, k1, k2, k3 = (first - 1) % m, first % m, (first + 1) % m, (first + 2) % m
+        for j in range(n):
+            value, slope = 0.0, 0.0
+            for row in range(n if rigid else 1):
+                part = layered.from_rigid[j, row] if rigid else 1.0
+                at = KEPT + (row if rigid else j) * m
+                w0, w1, w2, w3 = then[at + k0], then[at + k1], then[at + k2], then[at + k3]
+                value += part * (c0 * w0 + c1 * w1 + c2 * w2 + c3 * w3)
+                slope += part * (d0 * w0 + d1 * w1 + d2 * w2 + d3 * w3)
+            if value > 0.0:
+                was[0, j, i], was[1, j, i] = value, slope * steep
+
+
+@inner_kernel
+def add_deformation(layered: LayeredFilm, k: int, ambient: float, result: Floats) -> None:
+    """Add what the wall's rate of deformation brings to the residual's tangent along q_k, and to dF/dv_k."""
+    film = layered.film
+    n, m = layered.was.shape[1], layered.was.shape[2]
+    rate, soft, cell = layered.time[RATE], layered.constants[2], 2.0 * np.pi / m
+    if rate == 0.0:
+        return
+    metric = film.rings[0, METRIC]
+    motion, stretching = film.rings[0, MOTION + k], film.rings[0, STRETCHING + k]
+    s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
+    for j in range(n):
+        volume, tangent = film.forcing[BY_METRIC, j], film.forcing[TANGENT, j]
+        was, slope, pressure = layered.was[0, j], layered.was[1, j], film.pressures[0, j]
+        for i in range(m):
+            area = cell * metric[i]
+            given = soft * max(pressure[i] + ambient, 0.0) - was[i]
+            tangent[i] += volume[i] * area * rate * stretching[i] * given
+            passed = -volume[i] * area * slope[i] * motion[i]
+            s0 += film.pressures[1, j, i] * passed
+            s1 += film.pressures[2, j, i] * passed
+            s2 += film.pressures[3, j, i] * passed
+            s3 += film.pressures[4, j, i] * passed
+    result[DAMPING + k] += s0
+    result[DAMPING + 4 + k] += s1
+    result[DAMPING + 8 + k] += s2
+    result[DAMPING + 12 + k] += s3
+
+
+@inner_kernel
+def add_drift(layered: LayeredFilm, v: Floats, ambient: float, result: Floats) -> None:
+    """Count what the wrench changes by as the wall goes on giving way as of the journal's way."""
+    film = layered.film
+    n, m = layered.was.shape[1], layered.was.shape[2]
+    rate, soft, cell = layered.time[RATE], layered.constants[2], 2.0 * np.pi / m
+    if rate == 0.0:
+        return
+    metric, drift = film.rings[0, METRIC], layered.drift
+    drift[:] = 0.0
+    for j in range(n):
+        volume, was, slope = film.forcing[BY_METRIC, j], layered.was[0, j], layered.was[1, j]
+        pressure = film.pressures[0, j]
+        for i in range(m):
+            passed = 0.0
+            for k in range(4):
+                passed += film.rings[0, MOTION + k, i] * v[k]
+            gained = rate * (soft * max(pressure[i] + ambient, 0.0) - was[i]) + slope[i] * passed
+            brings = -volume[i] * cell * metric[i] * gained
+            for k in range(4):
+                drift[k] += film.pressures[k + 1, j, i] * brings
+    # where the journal hardly moves K does not grow beyond that of a wall that stands still
+    square, size, stiff = 0.0, 0.0, 0.0
+    for k in range(4):
+        square += v[k] * v[k]
+        size += drift[k] * drift[k]
+    for k in range(16):
+        stiff += result[STIFFNESS + k] ** 2 + (rate * result[DAMPING + k]) ** 2
+    if stiff == 0.0:
+        return
+    scale = rate / (square + size * rate * rate / stiff)
+    for i in range(4):
+        for k in range(4):
+            result[STIFFNESS + 4 * i + k] += drift[i] * scale * v[k]
