@@ -197,6 +197,7 @@ register(
         title="Reynolds, aligned, looked up",
         text="Journal bearing: the aligned journal's Reynolds equation as a table, with solid contact.",
         film="bearing_fmu.films.table.depth:make",
+        boundaries=("guembel", "reynolds"),
         ahead="bearing_fmu.films.table.depth:ahead",
         quick=True,
     )

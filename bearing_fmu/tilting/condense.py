@@ -135,6 +135,8 @@ def add_condensed(
         for i in range(16):
             total[OUT_K + i] += share * freed[i // 4, i % 4].real
             total[OUT_C + i] += share * freed[i // 4, i % 4].imag / frequency
+        if share < 1.0:
+            _add_shed(out, pivot, search[SLOPE], total)
     else:
         _freed(held, k, rubbing, 1.0, axes, spring, freed)
         for i in range(16):
@@ -151,6 +153,16 @@ def add_condensed(
 @inner_kernel
 def _add_left(out: Floats, pivot: Pivot, share: float, slope: float, total: Floats) -> None:
     """Stiffness and damping of a pad that is left where it is, of which a share counts, see `search`."""
+    for i in range(4):
+        for j in range(4):
+            total[OUT_K + 4 * i + j] += share * out[OUT_K + 4 * i + j]
+            total[OUT_C + 4 * i + j] += share * out[OUT_C + 4 * i + j]
+    _add_shed(out, pivot, slope, total)
+
+
+@inner_kernel
+def _add_shed(out: Floats, pivot: Pivot, slope: float, total: Floats) -> None:
+    """Stiffness of the share that a displacement makes count less, whatever the whirl."""
     size = np.hypot(out[0], out[1])
     moment = pivot[ACROSS] * out[0] + pivot[ACROSS + 1] * out[1]
     sense = -1.0 if moment > 0.0 else 1.0
@@ -159,5 +171,4 @@ def _add_left(out: Floats, pivot: Pivot, share: float, slope: float, total: Floa
         grows = moment * (out[0] * x + out[1] * y) / size**2 - (pivot[ACROSS] * x + pivot[ACROSS + 1] * y)
         shed = -slope * sense * grows / size
         for i in range(4):
-            total[OUT_K + 4 * i + j] += share * out[OUT_K + 4 * i + j] - shed * out[OUT_WRENCH + i]
-            total[OUT_C + 4 * i + j] += share * out[OUT_C + 4 * i + j]
+            total[OUT_K + 4 * i + j] -= shed * out[OUT_WRENCH + i]

@@ -26,10 +26,10 @@ from bearing_fmu.outputs import (
     write_outputs,
 )
 from bearing_fmu.scales import Scales
-from bearing_fmu.status import NO_SOLUTION, OK
+from bearing_fmu.status import NO_SOLUTION, NOT_FINITE, OK
 from bearing_fmu.tilting.condense import add_condensed
 from bearing_fmu.tilting.pad import ACROSS, TOWARDS, Pivot
-from bearing_fmu.tilting.search import GO_ON, SEARCH, D, W, begin, proceed
+from bearing_fmu.tilting.search import GO_ON, SEARCH, SHARE, D, Seat, W, begin, proceed
 
 Floats = NDArray[np.float64]
 Constants = NDArray[np.void]
@@ -41,19 +41,25 @@ _PLACE = _SEEN + INPUTS
 _ANCHOR = _PLACE + 4
 _TOLD = _ANCHOR + 2
 _ROOM = _TOLD + OUTPUTS
-# Among the outputs from `OUT_GAP` on: what is the largest of all pads', and what their sum.
-_LARGEST, _SUMS = (3, 12, 13), (4, 14, 15, 16)
+# Among the outputs from `OUT_GAP` on: pressures, of which the largest counts, and what adds up.
+_PRESSURES, _OVERLAP, _SUMS = (3, 12), 13, (4, 14, 15, 16)
 
 
 @inner_kernel
 def _begin(scales: Scales, inputs: Floats, offset: Floats, q: Floats, out: Floats) -> float:
-    """Position of the journal in the bore; outputs to add to; the force that counts as none, N."""
+    """Position of the journal in the bore; outputs to add to; the force that counts as none, N.
+
+    Not finite where an input is not.
+    """
     for i in range(4):
         q[i] = inputs[i] - inputs[8 + i] - offset[i] if scales.aligned == 0 or i < 2 else 0.0
     out[:] = 0.0
     out[OUT_GAP : OUT_GAP + 2] = np.inf
     creeping = max(abs(inputs[4] - inputs[12]), abs(inputs[5] - inputs[13])) / scales.clearance
-    return _NOTHING * scales.force * max(abs(inputs[16]), creeping)
+    probe = 0.0
+    for i in range(INPUTS):
+        probe += inputs[i] * 0.0
+    return _NOTHING * scales.force * max(abs(inputs[16]), creeping) + probe
 
 
 @inner_kernel
@@ -87,19 +93,20 @@ def _pad_of(pads: Pads, k: int) -> Pads:
 
 
 @inner_kernel
-def _add_told(one: Floats, grip: float, rubs: float, total: Floats) -> None:
-    """Add to the bearing what a pad's film tells beside its law."""
+def _add_told(one: Floats, grip: float, rubs: float, share: float, total: Floats) -> None:
+    """Add to the bearing what a pad's film tells beside its law, and of which a share counts."""
     if one[0] < total[0]:
         total[0], total[2] = one[0], one[2]
     total[1] = min(total[1], one[1])
-    for i in _LARGEST:
-        total[i] = max(total[i], one[i])
+    total[_OVERLAP] = max(total[_OVERLAP], one[_OVERLAP])
+    for i in _PRESSURES:
+        total[i] = max(total[i], share * one[i])
     for i in _SUMS:
-        total[i] += one[i]
+        total[i] += share * one[i]
     for i in range(4):
         other, sign = (i + 1, -1.0) if i % 2 == 0 else (i - 1, 1.0)
-        total[5 + i] += one[5 + i] + sign * grip * one[5 + other]
-    total[9] += one[9] + rubs * one[4]
+        total[5 + i] += share * (one[5 + i] + sign * grip * one[5 + other])
+    total[9] += share * (one[9] + rubs * one[4])
 
 
 @inner_kernel
@@ -168,12 +175,15 @@ def pads_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
         anchor, told, speed = room[_ANCHOR:_TOLD], room[_TOLD:], inputs[16]
         sense, grip = 1.0 if speed >= 0.0 else -1.0, friction * sliding_sense(speed, scales.radius)
         nothing = _begin(scales, inputs, offset, q, out)
+        if nothing != nothing:
+            return NOT_FINITE
         for k in range(pivots.shape[0]):
             pivot, bore = pivots[k], _pad_of(pads, k)
+            seat = Seat(pivot, scales, q, rate, sense, nothing)
             for i in range(2):
                 anchor[i] = state[k, 0, i] + (state[k, 1, i] / rate if rate > 0.0 else 0.0)
                 search[D + i] = 2.0 * anchor[i] - state[k, 0, i]  # as the velocity takes it on
-            went = begin(search, pivot, scales, q, rate, sense)
+            went = begin(search, seat)
             while went == GO_ON:
                 _moved(pivot, inputs, search, rate, anchor, seen)
                 status = relative_state(bore, scales, seen, offset, own)
@@ -186,11 +196,12 @@ def pads_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
                         gap = scales.clearance * least_gap(bore, own[4:8])[0]
                         contact[PRESSURE] = largest_pressure(bore, scales, table, gap)
                     status = write_outputs(bore, scales, seen, own, result, contact, draft, told)
-                went = proceed(search, status, told, pivot, scales, q, rate, sense, nothing)
+                went = proceed(search, status, told, seat)
             if went != OK:
                 return went
             add_condensed(told, contact, pivot, search, rate, grip, whirl * abs(speed), matrices, out)
-            _add_told(told[OUT_GAP:], grip, friction * abs(speed) * scales.radius, out[OUT_GAP:])
+            rubs = friction * abs(speed) * scales.radius
+            _add_told(told[OUT_GAP:], grip, rubs, search[SHARE], out[OUT_GAP:])
             for i in range(2):
                 now[k, 0, i] = search[D + i]
                 now[k, 1, i] = rate * (search[D + i] - anchor[i])

@@ -26,6 +26,7 @@ position.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,9 +59,21 @@ _SCAN, _ROOT, _SUMMIT, _LEFT = 0.0, 1.0, 2.0, 3.0
 GO_ON = -1
 
 
+class Seat(NamedTuple):
+    """What a search goes by: the pad, the journal over it, and how both move."""
+
+    pivot: Pivot
+    scales: Scales
+    q: Floats  #: (4,) position of the journal in the bore, m and rad
+    rate: float  #: 2/dt, or 0 at rest
+    sense: float  #: of the rotation
+    nothing: float  #: force that counts as none, N
+
+
 @inner_kernel
-def begin(search: Floats, pivot: Pivot, scales: Scales, q: Floats, rate: float, sense: float) -> int:
+def begin(search: Floats, seat: Seat) -> int:
     """Begin at the place D, W; `GO_ON`, or a code of `FilmStatus`."""
+    pivot, scales, q = seat.pivot, seat.scales, seat.q
     search[RECESSED] = 0.0
     if pivot[COMPLIANCE] == 0.0:
         search[W] = 0.0
@@ -68,41 +81,31 @@ def begin(search: Floats, pivot: Pivot, scales: Scales, q: Floats, rate: float, 
         search[LEAST], search[MOST] = least_recess(pivot, scales, q), np.inf
         if not search[W] > search[LEAST]:
             search[W] = search[LEAST] + 0.1 * scales.clearance
-    return _open(search, pivot, scales, q, rate, sense)
+    return _open(search, seat)
 
 
 @inner_kernel
-def _open(search: Floats, pivot: Pivot, scales: Scales, q: Floats, rate: float, sense: float) -> int:
+def _open(search: Floats, seat: Seat) -> int:
     """Begin to look for d at a w; as `begin`."""
-    low, high = bounds(pivot, scales, q, search[W])
+    low, high = bounds(seat.pivot, seat.scales, seat.q, search[W])
     if not low < high:
-        return scales.closes
+        return seat.scales.closes
     search[LOW], search[HIGH], search[COUNT] = low, high, 0.0
     search[SHARE], search[SLOPE] = 1.0, 0.0
-    if rate > 0.0:
+    if seat.rate > 0.0:
         search[PHASE] = _ROOT
         if not low < search[D] < high:
             search[D] = 0.5 * (low + high)
     else:
         search[PHASE] = _SCAN
-        search[EDGE], search[OTHER] = (high, low) if sense > 0.0 else (low, high)
+        search[EDGE], search[OTHER] = (high, low) if seat.sense > 0.0 else (low, high)
         search[LAST] = search[EDGE]
         search[D] = search[EDGE] + _SHARES[0] * (search[OTHER] - search[EDGE])
     return GO_ON
 
 
 @inner_kernel
-def proceed(
-    search: Floats,
-    status: int,
-    out: Floats,
-    pivot: Pivot,
-    scales: Scales,
-    q: Floats,
-    rate: float,
-    sense: float,
-    nothing: float,
-) -> int:
+def proceed(search: Floats, status: int, out: Floats, seat: Seat) -> int:
     """Go on from what the film has written at the place.
 
     Parameters
@@ -113,10 +116,8 @@ def proceed(
         Of the film.
     out : ndarray, shape (58,)
         Of the film, in the order of the port.
-    pivot, scales, q
-        As of `pad.bounds`.
-    rate, sense, nothing : float
-        See above; sense of rotation; force that counts as none, N.
+    seat : Seat
+        As of `begin`.
 
     Returns
     -------
@@ -125,22 +126,20 @@ def proceed(
     """
     if status == NOT_FINITE:
         return status
-    phase = search[PHASE]
+    phase, pivot = search[PHASE], seat.pivot
     moment = pivot[ACROSS] * out[0] + pivot[ACROSS + 1] * out[1] if status == OK else 0.0
     size = np.hypot(out[0], out[1]) if status == OK else 0.0
     if phase == _SCAN:
-        _scan(search, status, sense * moment, size, nothing)
+        _scan(search, status, seat.sense * moment, size, seat.nothing)
         return GO_ON
     if phase == _SUMMIT:
-        _climb(search, status, sense * moment, size, nothing)
+        _climb(search, status, seat.sense * moment, size, seat.nothing)
         return GO_ON
     if phase == _ROOT:
-        went = _root(search, status, moment, size, out, pivot, scales, rate, sense, nothing)
+        went = _root(search, status, moment, size, out, seat)
         if went != OK:
             return went
-    if pivot[COMPLIANCE] == 0.0:
-        return OK
-    return _recede(search, out, pivot, scales, q, rate, sense, nothing)
+    return OK if pivot[COMPLIANCE] == 0.0 else _recede(search, out, seat)
 
 
 @inner_kernel
@@ -201,37 +200,26 @@ def _bracket(search: Floats, here: float, there: float) -> None:
 
 
 @inner_kernel
-def _root(
-    search: Floats,
-    status: int,
-    moment: float,
-    size: float,
-    out: Floats,
-    pivot: Pivot,
-    scales: Scales,
-    rate: float,
-    sense: float,
-    nothing: float,
-) -> int:
+def _root(search: Floats, status: int, moment: float, size: float, out: Floats, seat: Seat) -> int:
     """Go on to the root of the moment; `GO_ON`, or a code of `FilmStatus`."""
-    d, step = search[D], np.inf
+    d, step, rate, sense = search[D], np.inf, seat.rate, seat.sense
     if status != OK:  # at a bound, but for rounding
         forth = d < 0.5 * (search[LOW] + search[HIGH])
     else:
-        carries = size > nothing
+        carries = size > seat.nothing
         if carries and abs(moment) <= BALANCED * size:
             return OK
         if not carries and (rate > 0.0 or sense * moment < 0.0):
             return OK
         forth = moment > 0.0 if carries else sense > 0.0
-        slope = _slope(out, pivot, ACROSS, ACROSS, rate) if carries else 0.0
+        slope = _slope(out, seat.pivot, ACROSS, ACROSS, rate) if carries else 0.0
         if slope > 0.0:
             step = moment / slope
     if forth:
         search[LOW] = d
     else:
         search[HIGH] = d
-    if search[HIGH] - search[LOW] < _NARROW * scales.clearance and status == OK:
+    if search[HIGH] - search[LOW] < _NARROW * seat.scales.clearance and status == OK:
         return OK
     search[COUNT] += 1.0
     if search[COUNT] >= ROUNDS:
@@ -242,22 +230,14 @@ def _root(
 
 
 @inner_kernel
-def _recede(
-    search: Floats,
-    out: Floats,
-    pivot: Pivot,
-    scales: Scales,
-    q: Floats,
-    rate: float,
-    sense: float,
-    nothing: float,
-) -> int:
+def _recede(search: Floats, out: Floats, seat: Seat) -> int:
     """Go on to the w at which force and spring are in balance, a balance of the moment at hand."""
+    pivot, scales, rate = seat.pivot, seat.scales, seat.rate
     w, spring = search[W], 1.0 / pivot[COMPLIANCE]
     low, high = search[LEAST], search[MOST]
     force = pivot[TOWARDS] * out[0] + pivot[TOWARDS + 1] * out[1]
     missing = search[SHARE] * force - spring * w
-    if high - low < _NARROW * scales.clearance or abs(missing) <= BALANCED * abs(spring * w) + nothing:
+    if high - low < _NARROW * scales.clearance or abs(missing) <= BALANCED * abs(spring * w) + seat.nothing:
         return OK
     search[RECESSED] += 1.0
     if search[RECESSED] >= ROUNDS:
@@ -273,7 +253,7 @@ def _recede(
     if not low < new < high:
         new = 0.5 * (low + high) if high < np.inf else w + 0.5 * scales.clearance
     search[W], search[LEAST], search[MOST] = new, low, high
-    return _open(search, pivot, scales, q, rate, sense)
+    return _open(search, seat)
 
 
 @inner_kernel

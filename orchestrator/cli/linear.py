@@ -84,7 +84,7 @@ BEARING_HELP = (
     "temperature rise, largest pressure); stiffness and damping over Sommerfeld number and speed; the speed "
     "up to which a rigid rotor is stable; the pressure over the film as a picture, of a mass-conserving film "
     "its content, too. Of a train or scenario, or of a TOML file of its own: speed, load, the table bearing "
-    "with the keys of a train's bearing, and film. No FMU is built."
+    "with the keys of a train's bearing, and film; load_angle turns the load. No FMU is built."
 )
 REDUCTIONS_HELP = (
     "What a reduction costs: each beside the unreduced train.\n\n"
@@ -191,7 +191,16 @@ class BearingOptions:
     ] = None
     load: Annotated[
         float | None,
-        typer.Option(metavar="N", min=1e-3, help="Against gravity; by default what the train puts on it."),
+        typer.Option(metavar="N", min=1e-3, help="With gravity; by default what the train puts on it."),
+    ] = None
+    load_angle: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DEG",
+            min=-360.0,
+            max=360.0,
+            help="Direction of the load, from x to y; by default with gravity, -90.",
+        ),
     ] = None
     out: Out = None
     formats: FigureFormats = None
@@ -248,9 +257,8 @@ def bearing(options: BearingOptions) -> int:
     from orchestrator.commands.bearing import run
 
     names = [str(depth) for depth in options.depth or ()]
-    return run(
-        options.request(), _console(), name=options.name, depths=names, hertz=options.speed, load=options.load
-    )
+    asked = {"hertz": options.speed, "load": options.load, "load_angle": options.load_angle}
+    return run(options.request(), _console(), name=options.name, depths=names, **asked)
 
 
 def reductions(options: LinearOptions) -> int:

@@ -41,6 +41,7 @@ def run(
     depths: Sequence[str],
     hertz: float | None,
     load: float | None,
+    load_angle: float | None = None,
 ) -> int:
     """Compute, print and write; returns the exit status.
 
@@ -50,7 +51,7 @@ def run(
         For anything wrong with the input.
     """
     lone = lone_case(request, console)
-    case, given = (linear_case(request, console), load) if lone is None else lone
+    case, given, direction = (linear_case(request, console), load, None) if lone is None else lone
     seat = _seat(case, name)
     train, speed = case.train, case.train.speed if hertz is None else HERTZ * hertz
     carried = given if load is None else load
@@ -58,13 +59,15 @@ def run(
         carried = target_loads(train)[train.bearings.index(seat)]
     if carried == 0.0:
         raise OrchestratorError(f"bearing {seat.name} carries no load; name one with --load")
-    force = -carried * np.asarray(train.upwards, dtype=float)
+    direction = direction if load_angle is None else float(np.radians(load_angle))
+    along = -np.asarray(train.upwards) if direction is None else (np.cos(direction), np.sin(direction))
+    force = carried * np.asarray(along, dtype=float)
     values = bearing_parameters(seat, case.scenario.film)
     found = study_bearing(values, seat.clearance, force, speed, depths or film_depths())
     title = (
         f"{seat.name} of {train.name}: d {seat.diameter:g} m, b/d {seat.width / seat.diameter:.3g}, "
         f"C {1e6 * seat.clearance:.4g} µm, {seat.viscosity:g} Pa s, {speed / HERTZ:g} Hz, "
-        f"{abs(carried) / 1e3:.4g} kN"
+        f"{abs(carried) / 1e3:.4g} kN at {np.degrees(np.arctan2(force[1], force[0])):.4g} deg"
     )
     so = seat.sommerfeld(abs(float(carried)), speed)
     figures: dict[str, Figure] = {

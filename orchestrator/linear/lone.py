@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
-def lone_case(request: LinearRequest, console: Console) -> tuple[LinearCase, float] | None:
-    """The case of a bearing's file and the load in it [N]; None where the source is of another kind.
+def lone_case(request: LinearRequest, console: Console) -> tuple[LinearCase, float, float] | None:
+    """The case of a bearing's file, its load [N] and the angle of that [rad]; None for another source.
 
     Raises
     ------
@@ -45,4 +45,4 @@ def lone_case(request: LinearRequest, console: Console) -> tuple[LinearCase, flo
     check_folder(request.folder, f"{request.command}.nc")
     train = Train(path.stem, found.speed, 0.0, 0.0, 0.0, (), (), (found.seat,))
     scenario = Scenario(title=f"Bearing {found.seat.name}", train=request.source, end=1.0, film=film)
-    return LinearCase(request, scenario, train, console), found.load
+    return LinearCase(request, scenario, train, console), found.load, found.load_angle

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from pydantic import ValidationError
 
 from rotor_fmu.train.bore import KEYS
 from rotor_fmu.train.checks import film_problems
-from rotor_fmu.train.entry import Entry, positive, within
+from rotor_fmu.train.entry import Entry, angle, positive, within
 from rotor_fmu.train.file import TrainFileError
 from rotor_fmu.train.oil import CURVE
 from rotor_fmu.train.schema import COEFFICIENTS, BearingEntry
@@ -20,21 +21,23 @@ from rotor_fmu.train.wording import explain
 
 
 class LoneEntry(Entry):
-    """The file: speed of rotation, load on the journal against upwards, the bearing, settings of its film."""
+    """The file: speed, load on the journal and its direction, the bearing, settings of its film."""
 
     speed: float = positive(1e4, "rad/s; 3000 rev/min are 314.16")
     load: float = within(-1e9, 1e9, "N")
+    load_angle: float = angle(-0.5 * math.pi)
     bearing: BearingEntry
     film: dict[str, Any] = {}  # noqa: RUF012 (pydantic copies it)
 
 
 @dataclass(frozen=True)
 class LoneBearing:
-    """A bearing, its speed [rad/s] and load [N], and what the file says of the film's settings."""
+    """A bearing, its speed [rad/s], its load [N] in a direction [rad], and the settings of its film."""
 
     seat: BearingSeat
     speed: float
     load: float
+    load_angle: float
     film: dict[str, Any]
 
 
@@ -67,4 +70,4 @@ def load_bearing(path: Path) -> LoneBearing | None:
     bearing = entry.bearing
     kept = bearing.model_dump(exclude={"z", *COEFFICIENTS, *KEYS, *CURVE})
     seat = BearingSeat(**{**kept, "node": 0, "bore": bearing.bore_text, "pedestal": None, **bearing.in_seat})
-    return LoneBearing(seat, entry.speed, entry.load, entry.film)
+    return LoneBearing(seat, entry.speed, entry.load, entry.load_angle, entry.film)

@@ -38,6 +38,7 @@ from bearing_fmu.films.jfo.workspace import (
     JfoFilm,
 )
 from bearing_fmu.films.tilted.grooves import pressure_drag
+from bearing_fmu.films.tilted.lines import wrench_of
 from bearing_fmu.films.tilted.reynolds import shape_gap, summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import kernel, stage
@@ -126,23 +127,14 @@ def _integrate(jfo: JfoFilm, bore: Bore, reynolds: float, result: Floats) -> Non
     film, net = jfo.film, jfo.net
     n, m = jfo.volumes.shape
     cell = 2.0 * np.pi / m
-    cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
-    result[:4] = 0.0
     peak = 0.0
     for j in range(n):
-        along, across, pressure = 0.0, 0.0, net.pressure[j]
+        pressure = net.pressure[j]
         for i in range(m):
             film.nodal[0, j, i] = pressure[i]
             film.column[ABSOLUTE, j, i] = pressure[i]
-            along += pressure[i] * metric[i] * cos[i]
-            across += pressure[i] * metric[i] * sin[i]
-        along *= film.weights[j] * cell
-        across *= film.weights[j] * cell
-        result[0] -= along
-        result[1] -= across
-        result[2] += film.nodes[j] * across
-        result[3] -= film.nodes[j] * along
         peak = max(peak, summit(pressure, m))
+    wrench_of(film, film.nodal[0], result)
     shear, metric = 0.0, land(bore, film.rings[0])
     for j in range(n + 2):
         row = j if j < n else (0 if j == n else n - 1)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.evaluate import RESULT
 from bearing_fmu.film import Film
+from bearing_fmu.films.aligned.depth import RUPTURING
 from bearing_fmu.films.aligned.depth import SOLVER as ALIGNED
 from bearing_fmu.films.table.spline import coefficients
 from bearing_fmu.films.table.table import FORCE, PARTS, RUB, RUN, SUMMIT, TURN, Table, narrowing, solve_table
@@ -69,6 +70,7 @@ def unit_bearing(parameters: BearingParameters) -> BearingParameters:
         contact_modulus=1e-30,  # without effect, but bears a closed gap
         columns=min(_FINER * parameters.columns, _MOST_COLUMNS),
         rows=parameters.rows,
+        boundary=parameters.boundary,
     )
 
 
@@ -76,7 +78,7 @@ class _Solved:
     """V2 as a function of position and velocity, dimensionless as in `bearing_fmu.result`."""
 
     def __init__(self, parameters: BearingParameters) -> None:
-        self._film = Film(ALIGNED, parameters)
+        self._film = Film(ALIGNED if parameters.boundary == "guembel" else RUPTURING, parameters)
         self._space, self._data = self._film.take()
         self._inputs, self._out = np.zeros(INPUTS), np.zeros(OUTPUTS)
         self._result = self._data[-1][RESULT : RESULT + RESULTS]

@@ -35,16 +35,23 @@ def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> Table:
     return table_of(parameters).table()
 
 
-SOLVER = Solver("table", port_kernel("table", _solve, add_aligned), _prepare)
+SOLVER = Solver(
+    "table", port_kernel("table", _solve, add_aligned), _prepare, boundaries=("guembel", "reynolds")
+)
 
 
 def _parameters(values: Mapping[str, Value]) -> BearingParameters:
     """The bearing; ValueError for what would need another table at each pressure or speed."""
     parameters = BearingParameters.of(values)
+    if parameters.arcs:
+        raise ValueError(
+            "bearing parameter bore: the table film knows the plain bore only; use depth v2, which solves "
+            "any bore in some microseconds"
+        )
     if parameters.ambient_pressure > 0.0:
         raise ValueError(
             f"bearing parameter ambient_pressure = {parameters.ambient_pressure!r}: the table film knows 0 "
-            "only"
+            "only; use depth v2"
         )
     if parameters.temperature == "followed":
         raise ValueError("bearing parameter temperature = 'followed': the table film holds its temperature")

@@ -18,7 +18,7 @@ from bearing_fmu.parameters import BearingParameters
 
 _DIGEST = hashlib.sha256().digest_size
 _PACKAGE = Path(__file__).parents[2]
-_DRAWN_ON = ("films/aligned", "films/table", "kernels", "bore", ".")
+_DRAWN_ON = ("films/aligned", "films/tilted", "films/table", "kernels", "bore", ".")
 """Folders that a table follows from, the same in a unit as in the program."""
 
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.interpolate import PchipInterpolator
 
 from bearing_fmu.film import make_film
 from bearing_fmu.static.curves import Bearing
@@ -15,15 +14,9 @@ from bearing_fmu.static.equilibrium import carried, carried_each, threshold
 from bearing_fmu.static.pressure import pressure_map, short_side_flow
 from fmus.port.bore import grooved, lobes, to_text
 from tests.bearing_fmu.bearings import SPEED, TURBINE, plain, table
+from tests.bearing_fmu.published_rows import load_of
 
 STILL = np.zeros(4)
-COEFFICIENTS = ("Kxx", "Kxy", "Kyx", "Kyy", "Bxx", "Bxy", "Byx", "Byy")
-
-
-def load_of(parameters, inverse):
-    """Load whose Sommerfeld number, eta N b d (R/C)^2 / W, is `inverse` at 1 rad/s."""
-    p = parameters
-    return p.viscosity / (2.0 * math.pi) * p.width * p.diameter * (p.radius / p.clearance) ** 2 / inverse
 
 
 @pytest.mark.parametrize(
@@ -68,53 +61,6 @@ def test_map_holds_the_pressure_that_the_film_has():
     around = np.append(middle, middle[0])
     force = [-p.radius * np.trapezoid(around * turn(ring), ring) for turn in (np.cos, np.sin)]
     np.testing.assert_allclose(force, film.wrench[:2], rtol=0.03)
-
-
-def lund(inverse, name):
-    """Of Lund and Thomsen's bearing with two grooves of 20 deg and b/d = 0.5, between its rows."""
-    rows = sorted(table("lund_thomsen_1978_two_axial_groove.csv"), key=lambda row: float(row["S"]))
-    over = np.log([float(row["S"]) for row in rows])
-    return float(PchipInterpolator(over, [float(row[name]) for row in rows])(math.log(inverse)))
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        row
-        for row in table("bores_someya_1989.csv")
-        if row["bearing"] == "two-groove" or (row["bearing"], row["B_over_D"]) == ("two-lobe", "1")
-    ],
-    ids=lambda row: f"{row['bearing']}-{row['B_over_D']}-{row['S']}",
-)
-def test_two_grooves_and_two_lobes_of_someya(row):
-    """Within the agreement that Lund and Thomsen's tables state of a converged solver; this book states none.
-
-    Left out are the entries of two grooves in which the two books contradict each other by more than that:
-    restoring stiffness and Byy under light loads (Kyx of this one is nearly twice that of the other).  Not
-    met are the two rows of two lobes with b/d = 0.5: eps by 0.028 and 0.019 of the least clearance, Kxy, Kyy
-    and Bxx at S = 0.993, Kxx and Byy at 0.105 by 1.2 to 2.5 times the agreement; those with b/d = 1 are met.
-    The next test has a second solution there, which this film meets.
-    """
-    preload, inverse = float(row["preload"]), float(row["S"])
-    bore = lobes(2, preload) if preload else lobes(1, 0.0)
-    cut = grooved(bore, [(middle, math.radians(10.0)) for middle in (0.0, math.pi)])
-    grid = {"columns": 192, "rows": 12} if inverse < 0.1 else {"columns": 96}
-    p = plain(float(row["B_over_D"]), bore=to_text(cut), boundary="reynolds", **grid)
-    found = carried(make_film("v1", p), (0.0, -load_of(p, inverse)), 1.0)
-    k, b = (p.clearance * matrix for matrix in found.matrices())
-    here = dict(zip(COEFFICIENTS, (*k.ravel(), *b.ravel()), strict=True))
-    here["phi_deg"] = float(np.degrees(found.attitude))
-    checked = []
-    for name, value in here.items():
-        there = float(row[name])
-        agreement = 0.5 if name == "phi_deg" else 0.06 * abs(there) + 0.06
-        if row["bearing"] == "two-groove" and abs(lund(inverse, name) - there) > agreement:
-            continue
-        checked.append(name)
-        assert abs(value - there) < agreement, name
-    assert len(checked) >= (1 if row["bearing"] == "two-groove" else 9)
-    eps = float(np.hypot(*found.position)) / p.clearance
-    assert eps == pytest.approx((1.0 - preload) * float(row["eps"]), abs=0.01)
 
 
 @pytest.mark.parametrize(

@@ -7,25 +7,38 @@ import math
 import numpy as np
 import pytest
 
+from bearing_fmu.film import FilmFailure, make_film
 from bearing_fmu.static.equilibrium import carried
+from fmus import port
 from fmus.port.bore import tilting, to_text
 from tests.bearing_fmu.bearings import force_unit
+from tests.bearing_fmu.published_rows import load_of
 from tests.bearing_fmu.tilting.independent_pad import settled
-from tests.bearing_fmu.tilting.pads import DEG, at_rest, film
+from tests.bearing_fmu.tilting.pads import DEG, ROUGH, at_rest, film
 
 
-@pytest.mark.parametrize(("eps", "inverse"), [(0.1, 5.76), (0.5, 0.756)])
-def test_light_loads_between_pads_are_those_of_another_solution(eps, inverse):
-    """Finite differences: within 1.5 % of this film at both, of Someya's number at the second only."""
-    bearing = film(columns=96, rows=12)
+@pytest.mark.parametrize(
+    ("first", "pads", "eps", "inverse", "met"),
+    [
+        (0.0, 2, 0.1, 5.76, False),
+        (0.0, 2, 0.5, 0.756, True),
+        (45.0, 1, 0.2, 1.42, False),
+        (45.0, 1, 0.4, 0.507, False),
+    ],
+)
+def test_loads_on_pads_are_those_of_another_solution(first, pads, eps, inverse, met):
+    """Between two pads and on one.  Finite differences: within 1.5 % of this film in each, of Someya's number
+    in one only.  His loads on a pad contradict those between pads: by them one pad carries 1.6 times what
+    each of two does at the same gap.
+    """
+    bearing = film(bore=to_text(tilting(4, 80.0 * DEG, 0.0, first=first * DEG)), columns=96, rows=12)
     p = bearing.parameters
     out, _ = at_rest(bearing, [0.0, -eps, 0.0, 0.0])
-    share = math.cos(45.0 * DEG)
+    share = math.cos(45.0 * DEG) if pads == 2 else 1.0
     _, force = settled(80.0 * DEG, 0.5, eps * share, 0.5)
-    other = 2.0 * share * 12.0 * force_unit(p)[0] * force
+    other = pads * share * 12.0 * force_unit(p)[0] * force
     assert out[1] == pytest.approx(other, rel=0.015)
-    load = p.viscosity / (2.0 * math.pi) * p.width * p.diameter * (p.radius / p.clearance) ** 2 / inverse
-    assert (abs(other / load - 1.0) < 0.015) == (eps == 0.5)
+    assert (abs(other / load_of(p, inverse) - 1.0) < 0.015) == met
 
 
 def carries(bearing, sommerfeld, angle):
@@ -68,3 +81,66 @@ def test_the_force_goes_on_where_a_pad_loses_its_hold():
     assert np.median(rough) < 1e-3 and rough.max() < 0.06
     lost = [at_rest(bearing, [0.0, -e, 0.0, 0.0])[1].reshape(4, 2, 2)[0, 0, 0] for e in places[[0, -1]]]
     assert abs(lost[0] - lost[1]) > 0.1 * bearing.parameters.clearance  # the fold lies between
+
+
+def behind_its_fold(place, whirl=0.0):
+    """One pad of which a share counts: its bearing's answer, and what its film gives where it stands."""
+    bearing = film(
+        bore=to_text(tilting(4, 80.0 * DEG, 0.3, 0.55)[:1]), aspect=0.6, whirl=whirl, columns=96, **ROUGH
+    )
+    out, state = at_rest(bearing, place)
+    clearance = bearing.parameters.clearance
+    seen = np.array(place) * clearance
+    seen[:2] += state.reshape(2, 2)[0] @ bearing.axes[0]
+    alone = make_film("v2", bearing.pads[0]).respond(seen, np.zeros(4), 1.0)
+    return out, alone, bearing.axes[0], clearance
+
+
+def test_of_a_pad_that_counts_in_part_all_counts_in_part():
+    """Friction and oil as the force; and nothing of it where the pad has lost its hold."""
+    shares = []
+    for e in np.linspace(0.5, 0.6, 11):
+        out, alone, *_ = behind_its_fold([0.0, -e, 0.0, 0.0])
+        share = out[1] / alone.wrench[1]
+        if 0.01 < share < 0.99:
+            shares.append(share)
+            told = dict(zip((v.name for v in port.BEARING_OUTPUTS), out, strict=False))
+            assert told["oil_flow"] == pytest.approx(share * alone.oil_flow, rel=1e-3)
+            assert told["friction_power"] == pytest.approx(share * alone.friction_power, rel=1e-3)
+            assert told["p_max"] == pytest.approx(share * alone.p_max, rel=1e-3)
+    assert len(shares) >= 2
+
+
+def test_a_whirl_sees_how_the_share_of_a_pad_changes():
+    """Synchronous stiffness: the pad's own, its motion condensed, and what its share loses."""
+    checked = 0
+    for e in np.linspace(0.5, 0.6, 11):
+        place = np.array([0.05, -e, 0.0, 0.0])
+        out, alone, axes, clearance = behind_its_fold(place, whirl=1.0)
+        share = out[1] / alone.wrench[1]
+        if not 0.05 < share < 0.95:
+            continue
+        checked += 1
+        whole, a = alone.stiffness[:2, :2] + 1j * alone.damping[:2, :2], axes[0]
+        freed = whole - np.outer(whole @ a, a @ whole) / (a @ whole @ a)
+        steps = 1e-5 * np.eye(4)[:2]
+        ends = [[_share(place + s * step) for s in (1.0, -1.0)] for step in steps]
+        changes = np.array([(up - down) / (2e-5 * clearance) for up, down in ends])
+        lost = -np.outer(alone.wrench[:2], changes)
+        expected = share * freed.real + lost
+        assert np.linalg.norm(lost) > 0.1 * np.linalg.norm(expected)
+        found = out[8:24].reshape(4, 4)[:2, :2]
+        assert np.linalg.norm(found - expected) < 5e-3 * np.linalg.norm(expected)
+    assert checked >= 2
+
+
+def _share(place):
+    out, alone, *_ = behind_its_fold(place)
+    return out[1] / alone.wrench[1]
+
+
+def test_what_is_no_number_is_called_so():
+    with pytest.raises(FilmFailure, match="NOT_FINITE"):
+        at_rest(film(), [np.nan, -0.5, 0.0, 0.0])
+    with pytest.raises(FilmFailure, match="NOT_FINITE"):
+        at_rest(film(), [0.0, -0.5, 0.0, 0.0], speed=np.nan)

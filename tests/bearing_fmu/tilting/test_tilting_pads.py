@@ -11,10 +11,9 @@ from bearing_fmu.film import FilmFailure, make_film
 from bearing_fmu.static.pressure import pressure_map
 from fmus import port
 from fmus.port.bore import from_text, tilting, to_text
-from tests.bearing_fmu.bearings import force_unit, lever, plain, table
+from tests.bearing_fmu.bearings import force_unit, lever, plain
 from tests.bearing_fmu.tilting.independent_pad import settled
 from tests.bearing_fmu.tilting.pads import DEG, FOUR, ROUGH, UP, at_rest, film, matrices, step
-from tests.published import published as published_case
 
 
 @pytest.mark.parametrize(("offset", "near"), [(0.5, 0.45), (0.6, 0.45), (0.5, 0.22)])
@@ -33,29 +32,6 @@ def test_a_pad_is_where_another_solution_has_it(offset, near):
     assert along == pytest.approx(unit * force, rel=0.01)
     across = out[1] * math.cos(pivot) - out[0] * math.sin(pivot)
     assert abs(across) < 1e-10 * along  # the force passes through the pivot
-
-
-@pytest.mark.parametrize(
-    "row",
-    [r for r in table("bores_someya_1989.csv") if r["bearing"] == "tilting4-between" and r["eps"] != "0.1"],
-    ids=lambda row: row["eps"],
-)
-@published_case("four tilting pads, load between two", "Someya 1989", "load 5 %, coefficients 4 %")
-def test_load_between_pads_of_someya(row):
-    """Synchronous coefficients.  The row of eps = 0.1 has the damping, but two thirds of the load and of the
-    stiffness that follow: without preload the load of a pad grows with the root of a small displacement, as
-    the balance of moments asks for a tilt of that size, and not linearly.  The next test shows that another
-    solution has the load that this film has.  The rows with the load on a pad contradict these: there one pad
-    carries 1.6 times what each of two does here at the same gap.
-    """
-    bearing = film(whirl=1.0, columns=96, rows=12)
-    p = bearing.parameters
-    out, _ = at_rest(bearing, [0.0, -float(row["eps"]), 0.0, 0.0])
-    k, b = (m[:2, :2] * p.clearance / out[1] for m in matrices(out))
-    inverse = p.viscosity / (2.0 * math.pi) * p.width * p.diameter * (p.radius / p.clearance) ** 2 / out[1]
-    assert inverse == pytest.approx(float(row["S"]), rel=0.05)
-    assert k[0, 0] == pytest.approx(float(row["Kxx"]), rel=0.05)
-    assert b[0, 0] == pytest.approx(float(row["Bxx"]), rel=0.04)
 
 
 @pytest.mark.parametrize("whirl", [0.0, 1.0, 0.5])

@@ -51,6 +51,10 @@ def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
     whole = simulate(scenario, tmp_path, None, Execution(threads=1))
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
+    if film.get("boundary") == "jfo":
+        full, fed = whole.record["full_film"].values, whole.record["oil_fed"].values
+        assert 0.3 < full.min() < full.max() < 1.0 and np.ptp(full) > 1e-3
+        assert np.all(fed > 0.0)
     two = simulate(scenario, tmp_path, None, Execution(threads=2))
     assert two.record.identical(whole.record)
     saves = Execution(Checkpoints(tmp_path / "saved", 2e-3, {}))

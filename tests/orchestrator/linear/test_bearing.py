@@ -77,9 +77,28 @@ def test_a_bearing_of_its_own_file(tmp_path):
     assert investigate("tests/examples/bearing/dam.toml", folder, depths=("v2",)) == 0
     text = (folder / "bearing.txt").read_text()
     assert "dam of dam: d 0.2 m" in text and "50 Hz, 12 kN" in text
+    assert "12 kN at -90 deg" in text
     film = xr.load_dataset(folder / "pressure.nc")
     dam = film["pressure"].sel(angle=slice(60.0, 170.0))
     assert float(dam.max()) > 2e5  # what builds up before its end presses down
+
+
+def test_a_load_in_any_direction(tmp_path):
+    """Turned by a quarter, load and pressure are the same: in the file and as an option."""
+    path, found = tmp_path / "own.toml", []
+    text = (ROOT / "tests/examples/bearing/dam.toml").read_text().partition("grooves")[0]
+    for name, key, option in (
+        ("down", "", None),
+        ("file", 'load_angle = "0 deg"\n', None),
+        ("option", "", 0.0),
+    ):
+        path.write_text(key + text)
+        assert investigate(str(path), tmp_path / name, depths=("v3",), load_angle=option) == 0
+        found.append(xr.load_dataset(tmp_path / name / "over-speed.nc").sel(rotation=50.0, method="nearest"))
+    for one in found[1:]:
+        for key in ("eccentricity", "attitude", "h_min"):
+            assert float(one[key]) == pytest.approx(float(found[0][key]), rel=1e-6)
+        assert "12 kN at 0 deg" in one.attrs["title"]
 
 
 @fault(
@@ -93,6 +112,9 @@ def test_no_such_film(tmp_path):
     text = (ROOT / "tests/examples/bearing/dam.toml").read_text()
     path.write_text(text.replace("columns = 72", "columns = 7"))
     with pytest.raises(OrchestratorError, match="film: columns = 7; allowed is a number of at least"):
+        investigate(str(path), tmp_path / "out")
+    path.write_text(text.replace('load = "12 kN"', 'load = "12 kN"\nload_angle = 90'))
+    with pytest.raises(OrchestratorError, match="load_angle = 90; allowed is"):
         investigate(str(path), tmp_path / "out")
     path.write_text(text.replace("viscosity", "viscositee"))
     with pytest.raises(OrchestratorError, match="viscositee: unknown key; did you mean 'viscosity'"):

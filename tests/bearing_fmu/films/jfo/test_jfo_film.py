@@ -22,7 +22,7 @@ from bearing_fmu.films.jfo.workspace import (
     axial_faces,
 )
 from bearing_fmu.kernels.grid import COS, SIN
-from bearing_fmu.outputs import OUT_C, OUT_K
+from bearing_fmu.outputs import OUT_C, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import RESULTS
 
@@ -185,6 +185,7 @@ def flows(film):
     film.bring_back(space)
     unit = 0.25 * film.parameters.clearance * film.parameters.radius * film.parameters.width
     found = data[3].flows
+    np.testing.assert_allclose(out[OUTPUTS:], (found[FULL], found[FEED] * unit), rtol=1e-12)  # is told, too
     return found[ENDS] * unit, found[FEED] * unit, found[FULL], np.hypot(*out[:2]), state[GROOVE]
 
 
