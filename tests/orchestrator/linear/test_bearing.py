@@ -86,7 +86,8 @@ def test_a_bearing_of_its_own_file(tmp_path):
 def test_a_load_in_any_direction(tmp_path):
     """Turned by a quarter, load and pressure are the same: in the file and as an option."""
     path, found = tmp_path / "own.toml", []
-    text = (ROOT / "tests/examples/bearing/dam.toml").read_text().partition("grooves")[0]
+    lines = (ROOT / "tests/examples/bearing/dam.toml").read_text().splitlines()
+    text = "\n".join(line for line in lines if not line.startswith(("grooves", "pockets")))
     for name, key, option in (
         ("down", "", None),
         ("file", 'load_angle = "0 deg"\n', None),
@@ -94,7 +95,8 @@ def test_a_load_in_any_direction(tmp_path):
     ):
         path.write_text(key + text)
         assert investigate(str(path), tmp_path / name, depths=("v3",), load_angle=option) == 0
-        found.append(xr.load_dataset(tmp_path / name / "over-speed.nc").sel(rotation=50.0, method="nearest"))
+        over = xr.load_dataset(tmp_path / name / "over-speed.nc").sel(depth="v3")
+        found.append(over.sel(rotation=50.0, method="nearest"))
     for one in found[1:]:
         for key in ("eccentricity", "attitude", "h_min"):
             assert float(one[key]) == pytest.approx(float(found[0][key]), rel=1e-6)
