@@ -194,7 +194,7 @@ class _TimeLoop:
         if self._ledger is not None:
             self._keepers["ledger"] = self._ledger
             self._observers.append(self._ledger)
-        self._happenings = Happenings(system, scenario.events, start.static)
+        self._happenings = Happenings(system, scenario.events, start.static, bores)
         if scenario.turns:
             self._keepers["happenings"] = self._happenings
             self._observers.append(self._happenings)

@@ -50,11 +50,15 @@ class Bores:
 
     def __init__(self, clearances: Iterable[float], widths: Iterable[float], offsets: Array) -> None:
         self.clearance = np.array(list(clearances))
-        self._half, self._offsets = 0.5 * np.array(list(widths)), offsets
+        self._half, self.offsets = 0.5 * np.array(list(widths)), offsets.copy()
+
+    def move(self, bearing: int, coordinate: int, by: float) -> None:
+        """Move a bore, as an event does."""
+        self.offsets[bearing, coordinate] += by
 
     def gaps(self, bearing: Numbers, motion: Array) -> tuple[Array, Array]:
         """Least gaps over these bearings' films, and in their middle, (m,) in m, of motions (m, 8)."""
-        x, y, tilt_x, tilt_y = (motion[:, :4] - self._offsets[bearing]).T
+        x, y, tilt_x, tilt_y = (motion[:, :4] - self.offsets[bearing]).T
         half, clearance = self._half[bearing], self.clearance[bearing]
         ends = [np.hypot(x + side * half * tilt_y, y - side * half * tilt_x) for side in (-1.0, 1.0)]
         return clearance - np.maximum(*ends), clearance - np.hypot(x, y)
@@ -112,12 +116,15 @@ class Between:
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
         counts = {"first": self.first, "filled": np.array(self.filled), "stands": self.stands}
-        return {**counts, "values": self._values, "motion": self._motion}
+        return {
+            **counts, "values": self._values, "motion": self._motion, "offsets": self._bores.offsets,
+        }  # fmt: skip
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> int:
         """Go on from what `arrays` returned, its names behind `between.`; returns as `kept`."""
         self.first[:], self.stands[:] = arrays["between.first"], arrays["between.stands"]
         self._values[:], self._motion[:] = arrays["between.values"], arrays["between.motion"]
+        self._bores.offsets[:] = arrays["between.offsets"]
         self.filled = int(arrays["between.filled"])
         return int(self.first.min())
 

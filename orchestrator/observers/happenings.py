@@ -12,12 +12,17 @@ from numpy.typing import NDArray
 from fmus import port
 from orchestrator.master.coupling import Advance
 from orchestrator.master.observer import Observer
+from orchestrator.master.rollback import forgets
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
+from orchestrator.observers.between import Bores
 from orchestrator.scenario.events import BladeLoss, Change, Conditional, Event, Switch
 
 Array = NDArray[np.float64]
 
+_OFFSETS = tuple(f"offset.{name}" for name in port.POSITION)
+_SHORT = 1e-9
+"""A step in s from the start of a run to itself, which no unit may be asked for."""
 _INSTANT = 1e-12
 """Share by which the end of a step may miss an instant and still be it."""
 
@@ -33,10 +38,14 @@ class Happenings(Observer):
         Of the scenario; blades lost at an instant are lost inside the rotor.
     static : ndarray (bearings, 4)
         Journals at the start, from which vibrations count.
+    bores : Bores, optional
+        Moved with the bearings.
     """
 
-    def __init__(self, system: System, events: Sequence[Event], static: Array) -> None:
-        self._system, self._static = system, static
+    def __init__(
+        self, system: System, events: Sequence[Event], static: Array, bores: Bores | None = None
+    ) -> None:
+        self._system, self._static, self._bores = system, static, bores
         self._events = [e for e in events if isinstance(e, Conditional) and not _is_of_the_rotor(e)]
         losses = [index for index, event in enumerate(self._events) if isinstance(event, BladeLoss)]
         self._numbers = {index: k for k, index in enumerate(losses)}
@@ -58,28 +67,41 @@ class Happenings(Observer):
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
         self._first = abs(self._system.speed)
-        self._look(0.0)
+        self._look(0.0, 0.0)
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Look at the conditions after a step."""
-        self._look(end)
+        self._look(start, end)
 
-    def _look(self, time: float) -> None:
+    def _look(self, start: float, time: float) -> None:
         for index, event in enumerate(self._events):
             if math.isnan(self._happened[index]) and self._due(index, event, time):
                 self._happened[index] = time
-                self._bring_about(index, event)
+                self._bring_about(index, event, (start, time))
 
-    def _bring_about(self, index: int, event: Conditional) -> None:
+    def _bring_about(self, index: int, event: Conditional, step: tuple[float, float]) -> None:
+        """Bring it about at the end of a step, from its start to its end."""
         if isinstance(event, Switch):
             self._system.switch(event.input)
         elif isinstance(event, BladeLoss):
             self._system.switch(port.LOST, 2.0 ** self._numbers[index])
         elif isinstance(event, Change):
-            unit = self._system.bearings[self._names.index(event.bearing)]
-            (before,) = unit.get_real([event.variable])
-            after = before + event.by if event.by is not None else event.value
-            unit.set_real([event.variable], np.array([after]))
+            self._change(self._names.index(event.bearing), event, step)
+
+    def _change(self, number: int, event: Change, step: tuple[float, float]) -> None:
+        """Change a bearing's parameter; its law is the new one from this instant on, if it has no memory.
+
+        One with a memory goes on with its old law for a step.
+        """
+        unit, (start, end) = self._system.bearings[number], step
+        (before,) = unit.get_real([event.variable])
+        after = before + event.by if event.by is not None else event.value
+        unit.set_real([event.variable], np.array([after]))
+        if self._bores is not None and event.variable in _OFFSETS:
+            self._bores.move(number, _OFFSETS.index(event.variable), after - before)
+        if forgets(unit):  # it takes the step once more, to the same inputs
+            unit.do_step(start, (end - start) or _SHORT)
+            self._system.bearing_group.fetch([number])
 
     def _due(self, index: int, event: Conditional, time: float) -> bool:
         if event.timed:

@@ -18,14 +18,13 @@ from bearing_fmu import depths
 from orchestrator.errors import OrchestratorError
 from orchestrator.results.figures import style
 from orchestrator.results.growing_record import is_growing
-from orchestrator.results.journals import changing_speed
 from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.relative_motion import journal_motion
 from orchestrator.results.statistics import analysed_bearing, contact_threshold
 from orchestrator.results.verdicts.judge import judge, own_limits
 from orchestrator.results.verdicts.limits import Limits
 from orchestrator.results.verdicts.verdict import Grade, Verdict, worst
-from orchestrator.results.windows import Phase, phases
+from orchestrator.results.windows import Phase, changing_speed, phases
 
 SUMMARY_FILE = "summary.json"
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")

@@ -29,8 +29,6 @@ STEADY, FEWEST = 20.0, 4.0
 """Revolutions before an event of which the spectrum is made, and of which one is made at least."""
 LENGTH, SLICES, HIGHEST_OVER_TIME = 8.0, 80, 4.0
 """Of a waterfall: revolutions of a slice, how many slices, up to which order."""
-LEAST_CHANGE = 0.02
-"""Share of the largest speed by which it changes at least where things are drawn over it."""
 FLOOR = 1e-9
 """Smallest amplitude drawn [m]."""
 DEFAULT_PROBES = (math.pi / 4.0, 3.0 * math.pi / 4.0)
@@ -80,14 +78,6 @@ def steady_window(phase: Phase, turn: float) -> Window:
         return phase.mean
     count = STEADY if phase.name == "before" else FEWEST
     return Window(max(phase.span.start, phase.span.end - (count + 1e-6) * turn), phase.span.end)
-
-
-def changing_speed(record: xr.Dataset) -> Floats | None:
-    """Speed at each instant in rad/s, not negative; None where it stays."""
-    if "rotation_speed" not in record:
-        return None
-    speed = np.abs(np.asarray(record["rotation_speed"].values, dtype=float))
-    return speed if speed.size and float(np.ptp(speed)) > LEAST_CHANGE * float(speed.max()) else None
 
 
 def probe_spectrum(

@@ -24,6 +24,8 @@ BEFORE = 2.0
 """Revolutions of the window before the first event."""
 SETTLE = 10.0
 """Revolutions behind an event after which means are taken."""
+LEAST_CHANGE = 0.02
+"""Share of the largest speed by which it changes at least where things are drawn over it."""
 _TOLERANCE = 1e-9  # s, far below any macro step: sample times are sums of steps
 
 
@@ -88,6 +90,14 @@ def speed_in(record: xr.Dataset, window: Window) -> float:
     inside = window.mask(np.asarray(record["time"].values, dtype=float))
     found = np.abs(record["rotation_speed"].values[inside])
     return float(found.mean()) if found.any() else first
+
+
+def changing_speed(record: xr.Dataset) -> NDArray[np.float64] | None:
+    """Speed at each instant in rad/s, not negative; None where it stays."""
+    if "rotation_speed" not in record:
+        return None
+    speed = np.abs(np.asarray(record["rotation_speed"].values, dtype=float))
+    return speed if speed.size and float(np.ptp(speed)) > LEAST_CHANGE * float(speed.max()) else None
 
 
 def instants(record: xr.Dataset) -> tuple[float, ...]:

@@ -1,4 +1,4 @@
-"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g h i]``."""
+"""All benchmarks or some of them: ``python -m tests.benchmarks [a b c d e f g h i j]``."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from tests.benchmarks import (  # noqa: E402
     macro_step,
     mass_conserving,
     threads,
+    turning,
     work_precision,
 )
 
@@ -31,6 +32,7 @@ BENCHMARKS = {
     "g": work_precision.main,
     "h": corners.main,
     "i": contact.main,
+    "j": turning.main,
 }
 
 

@@ -11,8 +11,9 @@ from matplotlib.ticker import FuncFormatter
 
 from orchestrator.results import statistics
 from orchestrator.results.figures import style
-from orchestrator.results.journals import changing_speed, probes_of
+from orchestrator.results.journals import probes_of
 from orchestrator.results.revolutions import NAME, order_of
+from orchestrator.results.windows import changing_speed
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter
 
-from orchestrator.results import journals, statistics
+from orchestrator.results import journals, statistics, windows
 from orchestrator.results.figures import panels, style
 from orchestrator.results.relative_motion import journal_motion
 from orchestrator.results.signals.orders import NAMED
@@ -43,7 +43,7 @@ def spectra(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure
         12.0, 1.7 + 2.7 * len(records), f"Spectra of the journal, {bearing}", style.caption(records)
     )
     grid = figure.subplots(len(records), len(angles), sharex=True, sharey=True, squeeze=False)
-    largest, speeds = 0.0, [journals.changing_speed(record) for record in records]
+    largest, speeds = 0.0, [windows.changing_speed(record) for record in records]
     over_orders = speeds[0] is not None
     for row, record in enumerate(records):
         time = np.asarray(record["time"].values, dtype=float)
@@ -131,7 +131,7 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
 
 def _draw_orders(axes: Axes, record: xr.Dataset) -> None:
     """Lines of the orders in a waterfall, which follow the speed."""
-    speed = journals.changing_speed(record)
+    speed = windows.changing_speed(record)
     if speed is None:
         _name_orders(axes, _turn(record), journals.HIGHEST_OVER_TIME, colour="white")
         return

@@ -155,6 +155,27 @@ def from_probes(signals: ArrayLike, angles: Sequence[float]) -> Floats:
     return np.asarray(np.linalg.lstsq(directions, np.asarray(signals, dtype=float), rcond=None)[0])
 
 
+def peak_to_peak_of_turns(values: ArrayLike, angle: ArrayLike) -> Floats:
+    """Peak to peak over the revolution around each instant, whatever the speed, shape as `values`.
+
+    Parameters
+    ----------
+    values : array_like, shape (..., n)
+        Signals.
+    angle : array_like, shape (n,)
+        Of the rotation in rad, not falling. At the ends the revolution is the first or the last.
+    """
+    x, theta = np.asarray(values, dtype=float), np.asarray(angle, dtype=float)
+    middle = np.clip(theta, theta[0] + np.pi, max(theta[0] + np.pi, theta[-1] - np.pi))
+    slack = 1e-6
+    first = np.searchsorted(theta, middle - np.pi - slack)
+    last = np.searchsorted(theta, middle + np.pi + slack, side="right")
+    pairs = np.column_stack([first, last]).ravel()
+    padded = np.concatenate([x, x[..., -1:]], axis=-1)  # an end may be that of all
+    most, least = (f.reduceat(padded, pairs, axis=-1)[..., ::2] for f in (np.maximum, np.minimum))
+    return np.asarray(most - least)
+
+
 def running_peak_to_peak(values: ArrayLike, samples: int) -> Floats:
     """Peak to peak over the `samples` around each instant, shape as `values`, along the last axis."""
     x = np.asarray(values, dtype=float)

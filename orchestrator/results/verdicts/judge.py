@@ -23,7 +23,12 @@ from orchestrator.results.quantities import (
     STRESS,
     VIBRATION,
 )
-from orchestrator.results.signals.orders import probe_signals, running_peak_to_peak
+from orchestrator.results.signals.orders import (
+    peak_to_peak_of_turns,
+    probe_signals,
+    running_peak_to_peak,
+    turned_angle,
+)
 from orchestrator.results.statistics import (
     analysed_bearing,
     bearing_statistics,
@@ -32,11 +37,13 @@ from orchestrator.results.statistics import (
 )
 from orchestrator.results.verdicts.limits import ATTRIBUTE, Limits, ShaftVibration, limits_of, load_limits
 from orchestrator.results.verdicts.verdict import Grade, Verdict, held, worst
-from orchestrator.results.windows import Phase, phases, speed_in
+from orchestrator.results.windows import Phase, Window, changing_speed, phases, speed_in
 
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
 
 
 def own_limits(record: xr.Dataset) -> Limits:
@@ -117,27 +124,49 @@ class _Bearing:
             yield self._vibration(phase, vibration)
 
     def _vibration(self, phase: Phase, limit: ShaftVibration) -> Verdict:
-        """Largest peak to peak over a revolution at the probes; lasting where nothing happens."""
+        """Largest peak to peak over a revolution at the probes; lasting where nothing happens.
+
+        Where the speed changes, each revolution is held against the bounds at its own speed.
+        """
         window = phase.peak if phase.name.startswith("after") else phase.mean
-        speed = speed_in(self.record, window)
-        a_b, b_c, c_d = limit.at(speed)
-        inside = window.mask(self.time)
-        journal = in_housing(self.record).sel(bearing=self.name)
-        motion = journal.transpose("axis", "time").values[:, inside]
-        step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
-        turn = round(2.0 * math.pi / speed / step) + 1
-        swing = running_peak_to_peak(probe_signals(motion, limit.probes), turn)
-        probe, at = np.unravel_index(int(np.argmax(swing)), swing.shape)
-        value = float(swing[probe, at])
+        times, speeds, angles, swing = self._swings(window, limit.probes)
+        shares = swing / np.interp(speeds, limit.speed, limit.zone_cd)
+        probe, at = np.unravel_index(int(np.argmax(shares)), swing.shape)
+        value, (a_b, b_c, c_d) = float(swing[probe, at]), limit.at(float(speeds[at]))
         zone = "ABCD"[sum(value > bound for bound in (a_b, b_c, c_d))]
         bounds = "/".join(VIBRATION.number(bound) for bound in (a_b, b_c, c_d))
-        angle = math.degrees(limit.probes[probe])
+        angle = math.degrees(angles[probe])
         note = f"zone {zone} of {bounds} {VIBRATION.unit}, probe at {angle:.0f}°"
         grade = {"C": Grade.CLOSE, "D": Grade.BEYOND}.get(zone, Grade.WITHIN)
-        when, place = float(self.time[inside][at]), (phase.name, self.name)
+        when, place = float(times[at]), (phase.name, self.name)
         words = "shaft vibration, peak to peak"
         found = held(limit, words, place, VIBRATION, value, c_d, note=note, instant=when, trips=True)
         return replace(found, grade=grade)
+
+    def _swings(
+        self, window: Window, probes: tuple[float, ...]
+    ) -> tuple[Floats, Floats, tuple[float, ...], Floats]:
+        """Instants, speeds there, angles of the probes, and peak to peak over the revolution around each.
+
+        Of records too far apart for it the revolutions that a run has kept are taken, along x and y.
+        """
+        inside = window.mask(self.time)
+        time, changing = self.time[inside], changing_speed(self.record)
+        speed = np.full(time.size, speed_in(self.record, window)) if changing is None else changing[inside]
+        step = (self.time[-1] - self.time[0]) / (self.time.size - 1)
+        if step * speed.max() > 0.5 * math.pi and "revolution_overall" in self.record:
+            ends = np.asarray(self.record["revolution"].values, dtype=float)
+            if (kept := window.mask(ends)).any():
+                overall = self.record["revolution_overall"].sel(bearing=self.name)
+                of_axes = overall.transpose("axis", "revolution").values[:, kept]
+                speeds = self.record["revolution_speed"].values[kept]
+                return ends[kept], speeds, (0.0, 0.5 * math.pi), of_axes
+        journal = in_housing(self.record).sel(bearing=self.name)
+        signals = probe_signals(journal.transpose("axis", "time").values[:, inside], probes)
+        if changing is None:
+            turn = round(2.0 * math.pi / speed[0] / step) + 1
+            return time, speed, probes, running_peak_to_peak(signals, turn)
+        return time, speed, probes, peak_to_peak_of_turns(signals, turned_angle(time, speed))
 
     def _when(self, name: str, phase: Phase, *, least: bool = False) -> float | None:
         """Instant of a phase's extreme."""

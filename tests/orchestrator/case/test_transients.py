@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.linalg import eigvals, expm
 
 from orchestrator.case.simulate import simulate
 from orchestrator.fmi.folder import build
@@ -74,6 +75,58 @@ def place(tmp_path_factory):
         return record, size / ECCENTRICITY
 
     return run
+
+
+PEDESTAL = {"mass": (60.0, 120.0), "stiffness": (6e5, 9e5), "damping": (2e3, 5e3)}  # in x and y
+SOFT, DAMPER = 2e5, 1.5e3  # of each bearing
+
+
+def two_masses(axis):
+    """State matrix of half the rotor and a housing, displacements first."""
+    mass, stiffness, damping = (values[axis] for values in PEDESTAL.values())
+    inverse = np.array([[2.0 / MASS], [1.0 / mass]])
+    springs = inverse * np.array([[SOFT, -SOFT], [-SOFT, SOFT + stiffness]])
+    dampers = inverse * np.array([[DAMPER, -DAMPER], [-DAMPER, DAMPER + damping]])
+    return np.block([[np.zeros((2, 2)), np.eye(2)], [-springs, -dampers]])
+
+
+def test_transient_of_two_masses(tmp_path):
+    """A blade is lost: motion, foundation force, frequencies and damping are those of two masses, to 1e-6."""
+    given = "".join(f"{key} = {list(values)!r}\n" for key, values in PEDESTAL.items())
+    train = TRAIN.replace("{K}", repr(SOFT)).replace("{C}", repr(DAMPER))
+    train = train.replace("damping = 1500.0\n", f"damping = 1500.0\n[bearing.pedestal]\n{given}")
+    (tmp_path / "train.toml").write_text(train.replace('beta = "1e-9 s"', "beta = 1e-12"))
+    (tmp_path / "shaft.csv").write_text(SHAFT)
+    (tmp_path / "s.toml").write_text(
+        'train = "."\nend = 0.06\nstep = 2e-5\nreduction = "none"\ndepth = "linear"'
+    )
+    build(tmp_path / "fmus", [load_train(tmp_path)], ["linear"])
+    lost, every = 2e-4, 2e-4
+    event = {"wheel": "wheel", "unbalance": MASS * ECCENTRICITY, "time": lost}
+    changes = {"events": [event], "unbalance": {"grade": 0.0}, "record": {"interval": every}}
+    record = simulate(load_scenario(tmp_path / "s.toml", changes), tmp_path / "fmus").record
+    time = record["time"].values
+    names = ("displacement", "housing_displacement", "velocity", "housing_velocity")
+    for axis in (0, 1):
+        of, matrix = record.sel(bearing="front", axis="xy"[axis]), two_masses(axis)
+        load = [0.0, 0.0, (-1j) ** axis * ECCENTRICITY * OMEGA**2, 0.0]
+        steady = np.linalg.solve(1j * OMEGA * np.eye(4) - matrix, load)
+        forced = np.real(steady[:, None] * np.exp(1j * OMEGA * time))
+        first = np.real(steady * np.exp(1j * OMEGA * lost))
+        free = np.array([expm(matrix * max(0.0, t - lost)) @ first for t in time]).T
+        exact = np.where(time > lost, forced - free, 0.0)
+        found = np.array([of[name].values - of[name].values[0] for name in names])
+        size = np.abs(exact).max(axis=1, keepdims=True)
+        assert (np.abs(found - exact) / size).max() < 1e-6
+        _, spring, damper = (values[axis] for values in PEDESTAL.values())
+        force = of["foundation_force"].values - of["foundation_force"].values[0]
+        np.testing.assert_allclose(
+            force, spring * found[1] + damper * found[3], atol=1e-6 * np.abs(force).max()
+        )
+        rest = (found - forced)[:, time > lost - 0.5 * every]
+        step = np.linalg.lstsq(rest[:, :-1].T, rest[:, 1:].T, rcond=None)[0]
+        rates = np.sort_complex(np.log(eigvals(step)) / every)
+        np.testing.assert_allclose(rates, np.sort_complex(eigvals(matrix)), rtol=1e-6)
 
 
 STEP = 2.0 * math.pi / OMEGA / 40

@@ -88,3 +88,15 @@ def test_what_is_held_goes_on_from_its_arrays():
     assert other.restore({f"between.{name}": x.copy() for name, x in between.arrays().items()}) == 1
     for name, values in between.arrays().items():
         np.testing.assert_array_equal(other.arrays()[name], values)
+
+
+def test_a_bore_that_moves():
+    """Gaps follow it, also behind a checkpoint."""
+    bores = Bores([CLEARANCE], [0.0], np.zeros((1, 4)))
+    between = Between(bores, len(RESPONSE))
+    bores.move(0, 1, -2e-4)
+    sunk = np.array([[0.0, -2e-4, 0.0, 0.0]])
+    assert bores.gaps(np.array([0]), sunk)[1] == pytest.approx([CLEARANCE])
+    again = Bores([CLEARANCE], [0.0], np.zeros((1, 4)))
+    Between(again, len(RESPONSE)).restore({f"between.{k}": x for k, x in between.arrays().items()})
+    np.testing.assert_array_equal(again.offsets, bores.offsets)

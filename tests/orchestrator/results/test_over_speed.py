@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 
 from orchestrator.results.figures.over_speed import has_speeds
-from orchestrator.results.journals import changing_speed, probe_spectrum, probe_waterfall
-from orchestrator.results.windows import Window, speed_in
+from orchestrator.results.journals import probe_spectrum, probe_waterfall
+from orchestrator.results.windows import Window, changing_speed, speed_in
 
 TIME = np.arange(0.0, 2.0, 1e-3)
 

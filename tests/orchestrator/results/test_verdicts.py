@@ -90,6 +90,28 @@ def test_vibration_is_the_largest_peak_to_peak_at_a_probe_in_its_zone(verdicts, 
     assert (after.grade, after.bound) == (Grade.BEYOND, pytest.approx(320e-6))
 
 
+def test_a_vibration_is_held_against_the_bounds_at_its_own_speed(record):
+    """The speed falls: the largest share of the bound, not the largest motion; of far records revolutions."""
+    speed = np.linspace(314.0, 105.0, record.sizes["time"])
+    of_phases = {**record.attrs, "course": f"[[0.0, 314.0], [{float(record['time'][-1])!r}, 105.0]]"}
+    falling = record.assign(rotation_speed=("time", speed)).assign_attrs(of_phases)
+    limit = load_limits().shaft_vibration
+    found = one(judge(falling, load_limits()), "shaft vibration, peak to peak", "after", "LP2-front")
+    there = float(np.interp(found.instant, record["time"], speed))
+    assert found.bound == pytest.approx(limit.at(there)[2], rel=1e-9)
+    assert found.bound != pytest.approx(limit.at(float(speed.mean()))[2], rel=1e-3)
+    swings = np.zeros((3, 2, 2))
+    swings[1, :, 1], swings[2, :, 0] = 200e-6, 210e-6
+    kept = {
+        "revolution": [1.2, 1.4, 1.6],
+        "revolution_overall": (("revolution", "bearing", "axis"), swings),
+        "revolution_speed": ("revolution", [290.0, 310.0, 105.0]),
+    }
+    far = falling.isel(time=slice(None, None, 200)).assign(kept)
+    found = one(judge(far, load_limits()), "shaft vibration, peak to peak", "after", "LP2-front")
+    assert (found.value, found.instant, found.bound) == (200e-6, 1.4, pytest.approx(limit.at(310.0)[2]))
+
+
 def test_zones_lie_straight_between_speeds_and_end_at_the_nearest():
     limit = load_limits().shaft_vibration
     rpm = 2 * math.pi / 60

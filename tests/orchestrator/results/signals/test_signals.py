@@ -8,9 +8,11 @@ from orchestrator.results.signals.envelope import envelope
 from orchestrator.results.signals.orders import (
     from_probes,
     order_amplitudes,
+    peak_to_peak_of_turns,
     probe_signals,
     running_peak_to_peak,
     tracked_order,
+    turned_angle,
     whirl_of,
 )
 from orchestrator.results.signals.spectrum import evenly, order_spectrum, spectrum, waterfall
@@ -151,3 +153,17 @@ def test_an_order_is_tracked_while_the_speed_changes():
     np.testing.assert_allclose(np.abs(found), 1.0 + 0.5 * at, rtol=1e-6)
     np.testing.assert_allclose(np.angle(found), -0.7, rtol=1e-6)
     assert tracked_order(time[:50], signal[:50], speed[:50])[0].size == 0
+
+
+def test_peak_to_peak_of_a_revolution_whatever_the_speed():
+    """Of a motion whose speed falls and whose amplitude grows; of steady speed it is that of its samples."""
+    time = np.arange(0.0, 4.0, 1e-4)
+    speed = 300.0 - 70.0 * time
+    angle = turned_angle(time, speed)
+    found = peak_to_peak_of_turns((1.0 + 1e-3 * angle) * np.cos(angle), angle)
+    inside = (angle > np.pi) & (angle < angle[-1] - np.pi)
+    np.testing.assert_allclose(found[inside], 2.0 + 2e-3 * angle[inside], rtol=4e-3)
+    wave = np.sin(2.0 * np.pi * np.arange(400) / 40) * np.arange(400)
+    even = peak_to_peak_of_turns([wave, -wave], 2.0 * np.pi * np.arange(400) / 40)
+    both = running_peak_to_peak([wave, -wave], 41)
+    np.testing.assert_array_equal(even[:, 20:-20], both[:, 20:-20])
