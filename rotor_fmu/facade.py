@@ -15,7 +15,7 @@ from fmus.unit.layout import Layout
 from fmus.unit.slave import UnitSlave
 from rotor_fmu.shaft.statics import target_loads
 from rotor_fmu.train.train import Train
-from rotor_fmu.vibration.drive import Braking, Drive, course_of, torque_of
+from rotor_fmu.vibration.drive import NOTHING, Braking, Drive, course_of, torque_of
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 
@@ -118,12 +118,14 @@ class RotorSlave(UnitSlave):
         drive = self._drive
         return drive.on_course(self.start_time) if drive.course else float(self.inputs[0])
 
-    def _braking(self) -> tuple[bool, Braking]:
-        """Whether torques decide the speed, and what acts on the rotation now."""
-        released, broken = map(bool, self._states_of_drive[:2] >= 0.5)
+    def _braking(self, released: bool, broken: bool) -> tuple[bool, Braking]:
+        """Whether torques decide the speed, and what acts on the rotation now, where that is asked for."""
+        free = self._drive.is_free(released)
+        if not (free or self._rotor.keeps_account):
+            return free, NOTHING
         friction = float(self._friction.sum())
         now = self._drive.braking(self._rotor.speed, friction, released=released, broken=broken)
-        return self._drive.is_free(released), now
+        return free, now
 
     def _show(self) -> None:
         """Write the motion of journals and housings, and the speed."""
@@ -145,8 +147,9 @@ class RotorSlave(UnitSlave):
 
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
-        free, now = self._braking()
-        self._rotor.unbalance.lose(int(self._states_of_drive[2]))
+        released, broken, lost = self._states_of_drive.tolist()
+        free, now = self._braking(released >= 0.5, broken >= 0.5)
+        self._rotor.unbalance.lose(int(lost))
         if free:
             self._rotor.freely(time, step, *self._law, now)
         else:

@@ -168,6 +168,12 @@ class Stepper:
         self.counts = StepCounts()
         self.level, self._deepest = level, level + DEEPEST
 
+    def begin_anew(self, level: int) -> None:
+        """Take note of an event: steps of many rates begin behind it with so many halvings again."""
+        self.scheme.begin_anew()
+        if self.scheme.many_rates:
+            self.level = max(self.level, level)
+
     def cross(self, start: float, end: float, length: float, common: bool = True) -> None:
         """Carry the system over an interval; its length is given besides, free of rounding.
 

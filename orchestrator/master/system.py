@@ -70,6 +70,8 @@ class System:
         Rotor and bearings, in the order of a sequential coupling.
     rollback : Rollback
         The way back to the start of a step.
+    loads, levers : ndarray (bearings,)
+        See `set_scale`.
     turning : bool
         As given.
     """
@@ -121,7 +123,7 @@ class System:
         self._turning = Block(rotor, rotor_inputs[turned], inputs[turned])
         self._defect = np.empty((n, 4))
         self._reaction = np.empty((n, 2, 4, 1))
-        self._loads, self._levers = np.ones(n), np.ones(n)
+        self.loads, self.levers = np.ones(n), np.ones(n)
 
     @property
     def units(self) -> tuple[Unit, ...]:
@@ -159,13 +161,13 @@ class System:
         levers : iterable of float
             For each bearing the lever in m that makes a scale of moments of it, such as the width.
         """
-        self._loads[:] = load
-        self._levers[:] = list(levers)
+        self.loads[:] = load
+        self.levers[:] = list(levers)
 
     def scale(self) -> Array:
         """Return what wrenches are measured by now (bearings, 4): the load, or the force where larger."""
         force = self._force_scale()
-        moment = force * self._levers
+        moment = force * self.levers
         return np.stack([force, force, moment, moment], axis=1)
 
     def relative(self, defect: Array) -> float:
@@ -175,12 +177,16 @@ class System:
     def sizes(self, defect: Array) -> Array:
         """Return the largest component of each bearing's defect against `scale`, (bearings,)."""
         # Without making the array of scales, which takes three times as long; this is asked at every step.
-        largest = np.abs(defect).reshape(-1, 2, 2).max(axis=2)
-        largest[:, 1] /= self._levers
-        return np.asarray(largest.max(axis=1) / self._force_scale())
+        return np.asarray(self.magnitudes(defect) / self._force_scale())
+
+    def magnitudes(self, defect: Array) -> Array:
+        """Return the largest component of each bearing's defect in N, moments over levers, (bearings,)."""
+        size = np.abs(defect)
+        forces, moments = np.maximum(size[:, 0], size[:, 1]), np.maximum(size[:, 2], size[:, 3])
+        return np.asarray(np.maximum(forces, moments / self.levers))
 
     def _force_scale(self) -> Array:
-        return np.maximum(self._loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
+        return np.maximum(self.loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
 
     @property
     def speed(self) -> float:
@@ -200,10 +206,10 @@ class System:
         """Set the speed of the bearings alone, as `set_speed`."""
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
 
-    def give_laws(self) -> None:
-        """Give the rotor the newest laws, over FMI only those that it does not have, and what turns it."""
+    def give_laws(self, laws: Array | None = None) -> None:
+        """Give the rotor laws, by default the newest, over FMI what it lacks of them, and what turns it."""
         start = perf_counter()
-        newest = self.responses[:, _LAW]
+        newest = self.responses[:, _LAW] if laws is None else laws
         changed = np.flatnonzero((newest != self.laws).any(axis=1))
         self.laws[changed] = newest[changed]
         if 2 * len(changed) > len(newest):

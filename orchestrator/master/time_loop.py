@@ -66,6 +66,10 @@ class Course:
         """Whether all bearings come to the end of macro step k."""
         return k % self.meeting == 0 or k >= self.steps
 
+    def happens(self, time: float) -> bool:
+        """Whether an event falls on an instant, but for rounding."""
+        return any(abs(time - event) <= _WHOLE * self.step for event in self.events)
+
     def parts(self, k: int) -> Iterator[tuple[float, float, float]]:
         """Yield start, end and length of macro step k, from 1 on, parted at the events inside."""
         start = (k - 1) * self.step
@@ -169,6 +173,8 @@ def run(
         for k in range(first + 1, course.steps + 1):
             at = course.instant(k)
             for start, end, length in course.parts(k):
+                if course.happens(start):
+                    stepper.begin_anew(course.level)
                 stepper.cross(start, end, length, end != at or course.meets(k))
             watched = perf_counter()
             for observer in observers:

@@ -35,6 +35,10 @@ class Braking(NamedTuple):
     windage: float = 0.0
 
 
+NOTHING = Braking()
+"""Where nothing acts, or it does not matter."""
+
+
 @dataclass(frozen=True)
 class Drive:
     """What turns the rotor.

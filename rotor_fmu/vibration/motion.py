@@ -183,7 +183,11 @@ class RotorMotion:
                 "rotor: the state was saved by another build or kind of processor, on which the modes of the "
                 "shaft come out in other vectors; go on there, or start anew"
             )
-        self._state, self._modal, self._seen = state, None, None
+        self._go_on(coordinates, state, None)
+
+    def _go_on(self, coordinates: Coordinates, state: RotorState, seen: Array | None) -> None:
+        """Take on a state in coordinates of this rotor, which say the journals' motion."""
+        self._state, self._modal, self._seen = state, None, seen
         self._journals = journal_motion(coordinates, state.motion, state.static, state.trail)
 
     def _angle_at(self, time: float) -> float:

@@ -11,7 +11,7 @@ from rotor_fmu.reduction.reduce import Method
 from rotor_fmu.train.train import Train
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
-from rotor_fmu.vibration.drive import Braking
+from rotor_fmu.vibration.drive import NOTHING, Braking
 from rotor_fmu.vibration.motion import RotorMotion
 from rotor_fmu.vibration.prepared import PreparedShaft, prepare_shaft
 from rotor_fmu.vibration.spin import Spin
@@ -22,8 +22,6 @@ from rotor_fmu.vibration.unbalance import Unbalance, losses_of
 from rotor_fmu.vibration.work import Work, WorkLedger
 
 Array = NDArray[np.float64]
-
-_NOTHING = Braking()
 
 
 class Rotor(RotorMotion):
@@ -149,7 +147,7 @@ class Rotor(RotorMotion):
         K: Array,
         C: Array,
         speed: float,
-        now: Braking = _NOTHING,
+        now: Braking = NOTHING,
         *,
         free: bool = False,
     ) -> None:
@@ -212,8 +210,8 @@ class Rotor(RotorMotion):
             owed = self._spin.account(turning, ends, now, state.owed, given).owed
         turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
         where = coordinates.speed, coordinates.basis
-        self.set_state(RotorState(end, turned, state.static, *where, work, speed, owed, t + H, trail))
-        self._seen = seen
+        then = RotorState(end, turned, state.static, *where, work, speed, owed, t + H, trail)
+        self._go_on(coordinates, then, seen)
 
     def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:
         """Coordinates and maps of a step, rotation of the unbalances, and the kick of what appears in it."""
@@ -230,6 +228,11 @@ class Rotor(RotorMotion):
                 kicks.append(self._maps.turned_kick(turning.part(at - t), turning.reference, loss))
             coordinates, maps = self._maps.coordinates(turning.reference), self._maps.turned(turning, end)
         return coordinates, maps, self.unbalance.turned(t, pull), sum(kicks[1:], kicks[0]) if kicks else None
+
+    @property
+    def keeps_account(self) -> bool:
+        """Whether it keeps account of works."""
+        return self._ledger is not None
 
     def energy_of_rotation(self) -> float:
         """Kinetic energy of the rotation now, and of unbalance and vibration together [J]."""

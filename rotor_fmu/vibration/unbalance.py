@@ -120,6 +120,8 @@ class Unbalance:
 
     def lose(self, code: int) -> None:
         """Say which losses without an instant have come: the sum of 2^k of them, k from 0."""
+        if not (code or self.come):
+            return
         waiting = [index for index, loss in enumerate(self.later, 2) if math.isinf(loss.time)]
         self.come.clear()
         self.come.update(index for k, index in enumerate(waiting) if code >> k & 1)

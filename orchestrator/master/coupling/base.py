@@ -115,6 +115,9 @@ class Coupling(Protocol):
     def refuse(self) -> None:
         """Forget the last step, which is taken back."""
 
+    def begin_anew(self) -> None:
+        """Take note that something happens now: what was learned before does not hold behind it."""
+
 
 class Memoryless:
     """A scheme that takes each step once and keeps nothing."""
@@ -123,6 +126,9 @@ class Memoryless:
     many_rates: ClassVar[bool] = False
 
     def refuse(self) -> None:
+        """Nothing."""
+
+    def begin_anew(self) -> None:
         """Nothing."""
 
     @property

@@ -80,6 +80,9 @@ class IqnIls:
     def refuse(self) -> None:
         """Nothing: differences of a step taken back are as good."""
 
+    def begin_anew(self) -> None:
+        """Nothing: differences of steps before an event are as good as any first guess."""
+
     def advance(self, system: Coupled, time: float, step: float, common: bool = True) -> Advance:
         """Repeat the step until what the first group receives is what the others return."""
         system.rollback.mark()

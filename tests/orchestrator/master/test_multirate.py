@@ -6,9 +6,11 @@ import pytest
 from orchestrator.case.course import course_of
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
-from orchestrator.master.coupling import LinearImplicit, Multirate
+from orchestrator.master.coupling import LinearImplicit, Multirate, bent_law
+from orchestrator.master.coupling.bent_law import bent_laws
 from orchestrator.master.coupling.multirate import CALM, LINEAR, Rates
 from orchestrator.master.stepping import Stepper
+from orchestrator.master.time_loop import Course
 from orchestrator.observers.ledger import Ledger
 from rotor_fmu.train.file import load_train
 from tests.orchestrator.oscillator import DISPLACEMENT, begin, exact_motion, make_system, released
@@ -20,8 +22,7 @@ LOAD, MACRO, END = 4e3, 2e-3, 0.04  # N, the largest force in the motion; s
 
 def rates(**given):
     """Three bearings that stand at 0 and are due after 4."""
-    alike = {"stands": np.zeros(3), "interval": np.full(3, 4.0), "bend": np.zeros(3)}
-    return Rates(**{**alike, **given})
+    return Rates.anew(0.0, 4.0, np.ones(3))._replace(**given)
 
 
 def test_a_bearing_is_due_at_the_end_of_its_interval_or_when_its_defect_must_have_grown():
@@ -49,6 +50,38 @@ def test_intervals_double_where_calm_halve_where_rough_and_wait_for_those_not_ev
     np.testing.assert_allclose(after.bend, [sizes[0] / 0.01, sizes[1] / 0.01, 0.0])
     early = rates().after(1.0, due, np.full(3, 0.1), sizes, 0.01)  # a common instant: calm, but not for long
     assert early.interval.tolist() == [4.0, 0.5, 4.0]
+
+
+def bent(h, share):
+    """What a bent law misses of the mean wrench of -q^3 on a straight way over an interval h, against h^3."""
+    at = lambda q: (-(q**3), np.diag([3.0 * q**2, 0.0, 0.0, 0.0]))  # noqa: E731
+    (wrench, K), (_, before), v = at(1.0), at(1.0 - h), np.zeros((4, 4))
+    tangents = (np.concatenate([k, v]).reshape(1, 32) for k in (K, before))
+    where = np.eye(1, 8)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bent_law, "SHARE", share)
+        law = bent_laws(wrench * np.eye(1, 4), *tangents, np.ones(1), where)[0]
+    assert law[0] - law[4] * where[0, 0] == pytest.approx(wrench)  # where it stands it is exact
+    mean = ((1.0 + h) ** 4 - 1.0) / (4.0 * h)
+    return abs(law[0] - law[4] * (1.0 + 0.5 * h) + mean)
+
+
+def test_a_bent_law_has_the_mean_wrench_to_third_order_and_a_tangent_to_second():
+    h = np.array([0.04, 0.02])
+    for share, order in ((1.0, 3.0), (0.0, 2.0)):
+        coarse, fine = (bent(each, share) for each in h)
+        assert np.log2(coarse / fine) == pytest.approx(order, abs=0.1)
+    assert bent(0.04, bent_law.SHARE) < 0.3 * bent(0.04, 0.0)
+
+
+def test_a_law_follows_no_change_beyond_a_share_of_itself_and_none_without_an_interval_before():
+    tangent, before = np.full((1, 32), 2.0), np.full((1, 32), -5.0)
+    bends = [
+        bent_laws(np.zeros((1, 4)), tangent, before, np.full(1, ratio), np.zeros((1, 8)))[0, 4:]
+        for ratio in (1.0, 0.0)
+    ]
+    np.testing.assert_allclose(bends[0], 2.0 * (1.0 + bent_law.SHARE / 3.0 * bent_law.MOST))
+    np.testing.assert_array_equal(bends[1], 2.0)
 
 
 def carry(system, tolerance, level=3, on_step=lambda *_: None):
@@ -129,6 +162,28 @@ def test_linear_bearings_need_no_evaluation_but_at_common_instants(store, toy_fm
     assert system.bearing_group.evaluations < 0.2 * each.bearing_group.evaluations
     system.close()
     each.close()
+
+
+def test_behind_an_event_steps_and_intervals_begin_anew(store, toy_fmus):
+    """A step of the calm rear bearing, which bends not at all, would be the whole macro step."""
+    system = uneven(store, toy_fmus)
+    system.set_scale(LOAD, [1.0, 1.0])
+    path = []
+    stepper = Stepper(system, Multirate(1e-3), 1e-3, lambda *step: path.append(step))
+    course = Course(END, MACRO, 1e-3, events=(0.5 * END,), level=5)
+    for k in range(1, course.steps + 1):
+        for start, end, length in course.parts(k):
+            if course.happens(start):
+                stepper.begin_anew(course.level)
+                before, path = path, []
+            stepper.cross(start, end, length)
+    system.close()
+    assert min(end - start for start, end, _ in before[-8:]) > 1.9 * MACRO / 2**course.level
+    spans = [end - start for start, end, _ in path[:4]]
+    assert spans[0] == pytest.approx(MACRO / 2**course.level)
+    assert max(np.divide(spans[1:], spans[:-1])) < 2.0 + 1e-6
+    assert path[0][2].evaluated.all()
+    assert stepper.scheme.memory["span"].min() > 0.0
 
 
 def test_units_that_cannot_be_taken_back_are_carried_on_in_shorter_steps(store, toy_fmus):
