@@ -29,32 +29,42 @@ Floats = NDArray[np.float64]
 
 #: Length of the step and the rate 1/s that follows from it, 0 where nothing is remembered.
 STEP, RATE = 0, 1
-#: What is remembered first: nothing, of the rigid film, of that on its layer; then the map's parameter (2).
-NOTHING, OF_RIGID, ON_LAYER = 0.0, 1.0, 2.0
+#: What is remembered first: nothing, of the rigid film, of that on its layer, of that on a spread grid.
+NOTHING, OF_RIGID, ON_LAYER, SPREAD_OUT = 0.0, 1.0, 2.0, 3.0
+# Then the map's parameter (2), the velocity (4), and whether the rates of c p at the nodes stand behind c p.
+_MAP, _VELOCITY, _RATES = 1, 3, 7
+#: How many times stiffer than a wall that stands still K may become by what the wall goes on to give way.
+_STIFFEST = 10.0
 
 
 @inner_kernel
-def remember(layered: LayeredFilm, film: TiltedFilm, of: float, ambient: float) -> None:
+def remember(layered: LayeredFilm, film: TiltedFilm, of: float, v: Floats, ambient: float) -> None:
     """Note how far the wall has given way; where the film is ruptured what the pressure would make of it."""
     n, m = layered.was.shape[1], layered.was.shape[2]
-    now, soft = layered.now, layered.constants[2]
-    now[0], now[1], now[2] = of, film.grading[0, 0], film.grading[0, 1]
+    now, then, soft, rate = layered.now, layered.then, layered.constants[2], layered.time[RATE]
+    now[0], now[_MAP], now[_MAP + 1] = of, film.grading[0, 0], film.grading[0, 1]
+    now[_VELOCITY : _VELOCITY + 4] = v
+    follows = of != OF_RIGID and rate > 0.0 and then[0] == of
+    now[_RATES] = 1.0 if follows else 0.0
     for j in range(n):
         pressure = film.pressures[0, j]
         for i in range(m):
-            now[KEPT + j * m + i] = soft * (pressure[i] + ambient)
+            at = KEPT + j * m + i
+            now[at] = soft * (pressure[i] + ambient)
+            now[at + n * m] = rate * (now[at] - then[at]) if follows else 0.0
 
 
 @inner_kernel
-def bring_over(layered: LayeredFilm) -> None:
-    """Bring what is remembered to the columns of now."""
+def bring_over(layered: LayeredFilm, of: float) -> None:
+    """Bring what is remembered to the columns of now, and guess where the film goes `of` this grid."""
     n, m = layered.was.shape[1], layered.was.shape[2]
     then, was, cos, sin = layered.then, layered.was, layered.film.rings[0, COS], layered.film.rings[0, SIN]
     layered.time[RATE] = 1.0 / layered.time[STEP] if layered.time[STEP] > 0.0 and then[0] != NOTHING else 0.0
     was[:] = 0.0
     if layered.time[RATE] == 0.0:
         return
-    rigid, ax, ay = then[0] == OF_RIGID, then[1], then[2]
+    rigid, ax, ay = then[0] == OF_RIGID, then[_MAP], then[_MAP + 1]
+    goes_on = then[0] == of and then[_RATES] > 0.0
     for i in range(m):
         # (z - a) / (1 - conj(a) z) with z = exp(i phi) is exp(i t) on the uniform circle of then
         real, imaginary = 1.0 - ax * cos[i] - ay * sin[i], ay * cos[i] - ax * sin[i]
@@ -80,6 +90,9 @@ def bring_over(layered: LayeredFilm) -> None:
                 slope += part * (d0 * w0 + d1 * w1 + d2 * w2 + d3 * w3)
             if value > 0.0:
                 was[0, j, i], was[1, j, i] = value, slope * steep
+            at = KEPT + j * m + i
+            ahead = then[at] + layered.time[STEP] * then[at + n * m]
+            layered.ahead[j, i] = ahead if goes_on else was[0, j, i]
 
 
 @inner_kernel
@@ -113,7 +126,7 @@ def add_deformation(layered: LayeredFilm, k: int, ambient: float, result: Floats
 
 @inner_kernel
 def add_drift(layered: LayeredFilm, v: Floats, ambient: float, result: Floats) -> None:
-    """Count what the wrench changes by as the wall goes on giving way as of the journal's way."""
+    """Count by what the wrench changes, as the wall goes on giving way, as of the journal's way."""
     film = layered.film
     n, m = layered.was.shape[1], layered.was.shape[2]
     rate, soft, cell = layered.time[RATE], layered.constants[2], 2.0 * np.pi / m
@@ -132,16 +145,20 @@ def add_drift(layered: LayeredFilm, v: Floats, ambient: float, result: Floats) -
             brings = -volume[i] * cell * metric[i] * gained
             for k in range(4):
                 drift[k] += film.pressures[k + 1, j, i] * brings
-    # where the journal hardly moves K does not grow beyond that of a wall that stands still
-    square, size, stiff = 0.0, 0.0, 0.0
+    way, kick, way_kick = layered.way[0], layered.way[1], 0.0
+    size, stiff, step = 0.0, 0.0, layered.time[STEP]
     for k in range(4):
-        square += v[k] * v[k]
+        kick[k] = v[k] - layered.then[_VELOCITY + k]
+        way[k] = step * (v[k] + 0.5 * kick[k])
+        kick[k] *= step
+        way_kick += way[k] * way[k] + kick[k] * kick[k]
         size += drift[k] * drift[k]
     for k in range(16):
         stiff += result[STIFFNESS + k] ** 2 + (rate * result[DAMPING + k]) ** 2
-    if stiff == 0.0:
+    if stiff == 0.0 or way_kick == 0.0:
         return
-    scale = rate / (square + size * rate * rate / stiff)
+    scale = 1.0 / (way_kick + size / (_STIFFEST * _STIFFEST * stiff))
     for i in range(4):
         for k in range(4):
-            result[STIFFNESS + 4 * i + k] += drift[i] * scale * v[k]
+            result[STIFFNESS + 4 * i + k] += drift[i] * scale * way[k]
+            result[DAMPING + 4 * i + k] += drift[i] * scale * step * kick[k]

@@ -35,7 +35,7 @@ UPSTREAM = 0.75
 CLUSTERING, GRADING = 2.4, 1.3
 _LINES = 4  #: for each row, on which the asperities' force is summed
 _FLAT = 1e-12
-KEPT = 3  #: What stands before the nodes in what is remembered, see `deformation`
+KEPT = 8  #: What stands before the nodes in what is remembered, see `deformation`
 
 
 class LayeredFilm(NamedTuple):
@@ -60,10 +60,13 @@ class LayeredFilm(NamedTuple):
     stiff: Floats  #: (RESULTS,) work space, of the rigid bore
     change: Floats  #: (9,) how far the layer takes part, by q and v; the last: how far it did, 0 to 1
     time: Floats  #: (2,) length of the step, s, 0 for a film in balance; the rate 1/s that follows from it
-    then: Floats  #: (KEPT + n m,) what is remembered from before the step, see `deformation`
-    now: Floats  #: (KEPT + n m,) what is remembered after it
+    then: Floats  #: (KEPT + 2 n m,) what is remembered from before the step, see `deformation`
+    now: Floats  #: (KEPT + 2 n m,) what is remembered after it
     from_rigid: Floats  #: (n, n) rows of the layered film from those of the rigid one
+    ahead: Floats  #: (n, m) how far it is guessed to have given way after the step
     drift: Floats  #: (4,) work space
+    way: Floats  #: (2, 4) work space
+    counts: Floats  #: (3,) factors, solutions with them, and searches of the last evaluation
     was: Floats  #: (2, n, m) how far the wall had given way at the columns of now, and its slope by the angle
 
 
@@ -93,10 +96,13 @@ def layered_film(
         stiff=np.zeros(RESULTS),
         change=np.zeros(9),
         time=np.zeros(2),
-        then=np.zeros(KEPT + n * m),
-        now=np.zeros(KEPT + n * m),
+        then=np.zeros(KEPT + 2 * n * m),
+        now=np.zeros(KEPT + 2 * n * m),
         from_rigid=from_rigid,
+        ahead=np.zeros((n, m)),
         drift=np.zeros(4),
+        way=np.zeros((2, 4)),
+        counts=np.zeros(3),
         was=np.zeros((2, n, m)),
     )
 

@@ -5,8 +5,9 @@ left. So it follows a wall that takes time to give way (pseudo-transient continu
 SIAM J. Numer. Anal. 35, 508): quickly, its rate falling with the residual (Mulder and van Leer 1985), and
 where that does not end, with a rate that keeps each step to what its linear equations say.
 
-Where the wall's deformation before a step is known it is the start, and the wall does take time: there the
-first factor mostly serves until the pressure stands, and one more is made for the tangent.
+Where the wall's deformation before a step is known, the wall does take time. There the start is where the
+last two steps point to, the first factor mostly serves until the pressure stands, and one more is made for
+the tangent; else Newton's method goes from where the wall was.
 """
 
 from __future__ import annotations
@@ -27,13 +28,14 @@ from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
 
-#: Of the search from the step before, of the quick one and of the careful one.
-_PLAIN, _QUICK, _CAREFUL = 24, 30, 400
+#: Of the search from the step before, of the quick one and of the careful one; of the first from where on
+#: it takes half of each step.
+_PLAIN, _QUICK, _CAREFUL, _HALF = 24, 30, 400, 10
 #: Of a step with an old factor over the one before: what calls for a new one.
 _SLOW = 0.35
 #: Of a step of the pressure: one more would change it by about the square of that, and one more is made;
-#: of one with an old factor.
-_PRECISION, _CHORD = 1e-3, 1e-5
+#: where the wall is followed, and there with an old factor.
+_PRECISION, _NEWTON, _CHORD = 1e-3, 3e-3, 1e-4
 #: Roughnesses by which a step presses the wall back at most, in either search.
 _STEPS = (3.0, 300.0)
 #: Rate at which the wall gives way at first, over the flow's, and where it is none.
@@ -58,8 +60,8 @@ def _resist(layered: LayeredFilm, rate: float) -> None:
 
 
 @inner_kernel
-def _advance(layered: LayeredFilm, ambient: float, most: float) -> float:
-    """Turn the step in `sides` into the pressure; its size, where there is a film, over the largest pressure.
+def _advance(layered: LayeredFilm, ambient: float, most: float, part: float) -> float:
+    """Take a `part` of the step in `sides`; its size, where there is a film, over the largest pressure.
 
     A step raises the pressure by `most` only: from a closed gap the linear film would overshoot.
     """
@@ -71,7 +73,7 @@ def _advance(layered: LayeredFilm, ambient: float, most: float) -> float:
         for i in range(m):
             at = i * width + j
             before = layered.kept[at] = film.pressures[0, j, i]
-            film.sides[at] = min(before + film.sides[at], max(before, 0.0) + most)
+            film.sides[at] = min(before + part * film.sides[at], max(before, 0.0) + most)
             after = max(film.sides[at] + ambient, 0.0)
             step = max(step, abs(after - max(before + ambient, 0.0)))
             largest = max(largest, after)
@@ -94,17 +96,18 @@ def _misfit(layered: LayeredFilm, rate: float) -> float:
 
 
 @inner_kernel
-def _begin(layered: LayeredFilm, ambient: float) -> None:
-    """Put a pressure into `sides`: that before the step, or without one such that nothing overlaps."""
+def _begin(layered: LayeredFilm, ambient: float, guess: bool) -> None:
+    """Put a pressure into `sides`: a guess, that before the step, or one with which nothing overlaps."""
     film, soft = layered.film, layered.constants[2]
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     for j in range(n):
         for i in range(m):
-            if layered.time[RATE] > 0.0:
-                film.sides[i * width + j] = layered.was[0, j, i] / soft - ambient
-            else:
+            if layered.time[RATE] == 0.0:
                 film.sides[i * width + j] = max(-film.column[GAP, j, i], 0.0) / soft
+            else:
+                given = layered.ahead[j, i] if guess else layered.was[0, j, i]
+                film.sides[i * width + j] = given / soft - ambient
 
 
 @inner_kernel
@@ -115,19 +118,26 @@ def _follow(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> bo
     width = film.coupling.shape[0] // m
     b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
     most = _STEPS[0] * layered.constants[1] / layered.constants[2]
-    _begin(layered, ambient)
     step, renew, found = np.inf, True, False
-    for _ in range(_PLAIN):
+    for round_ in range(2 * _PLAIN):
+        newton = round_ >= _PLAIN
+        if round_ == 0 or round_ == _PLAIN:
+            _begin(layered, ambient, not newton)
+            step, renew, found = np.inf, True, False
         unfold(film, 0, 0, 1)
         linearise(layered, v, speed, ambient, renew)
-        if renew and not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
-            return False
+        if renew:
+            layered.counts[0] += 1.0
+            if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
+                return False
+        layered.counts[1] += 1.0
         solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
-        before, step = step, _advance(layered, ambient, most)
-        if found:
-            return step < _PRECISION
-        found = step < (_PRECISION if renew else _CHORD)
-        renew = found or step > _SLOW * before
+        part = 0.5 if newton and not found and round_ >= _PLAIN + _HALF else 1.0
+        before, step = step, _advance(layered, ambient, most, part) / part
+        if found and step < _NEWTON:
+            return True
+        found = step < (_NEWTON if renew else _CHORD)
+        renew = found or newton or step > _SLOW * before
     return False
 
 
@@ -139,12 +149,13 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
     width = film.coupling.shape[0] // m
     b, w, y = layered.blocks[0], layered.blocks[1], layered.blocks[2]
     flow = abs(speed) + 2.0 * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3])
-    _begin(layered, ambient)
+    layered.counts[2] += 1.0
+    _begin(layered, ambient, False)
     rate, before, found, fresh = _RATE, 0.0, False, True
     for round_ in range(_QUICK + _CAREFUL):
         careful = round_ >= _QUICK
         if round_ == _QUICK:
-            _begin(layered, ambient)
+            _begin(layered, ambient, False)
             rate, found, fresh = _RATE, False, True
         unfold(film, 0, 0, 1)
         residual = linearise(layered, v, speed, ambient, True)
@@ -161,11 +172,12 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
             rate *= min(max(residual / before, _FALLS[0]), _GROWTH)
         before, fresh = max(residual, 1e-300), False
         _resist(layered, rate * flow)
+        layered.counts[0] += 1.0
         if not factorise_ring(b, layered.lower, layered.upper, w, y, layered.work, m, n, width):
             return NO_SOLUTION
         solve_ring(b, layered.lower, layered.upper, w, y, film.sides, layered.work, m, n, width, 1)
         most = np.inf if found else _STEPS[1 if careful else 0] * layered.constants[1] / soft
-        step = _advance(layered, ambient, most)
+        step = _advance(layered, ambient, most, 1.0)
         if found:
             return OK
         found = step < _PRECISION and rate <= _NONE
@@ -175,9 +187,9 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
 @stage
 def solve_layered(
     layered: LayeredFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, part: float,
-    result: Floats,
+    of: float, result: Floats,
 ) -> int:  # fmt: skip
-    """Solve for the pressure; otherwise as `reynolds.solve_pressure`.
+    """Solve for the pressure, `of` this kind of grid; otherwise as `reynolds.solve_pressure`.
 
     On return the factor is that of the transposed system, for the adjoint.
     """
@@ -186,7 +198,7 @@ def solve_layered(
     width = film.coupling.shape[0] // m
     shape_gap(film, None, q, sigma, part)
     film.mixed[SHARE] = 0.0
-    bring_over(layered)
+    bring_over(layered, of)
     status = OK
     if layered.time[RATE] == 0.0 or not _follow(layered, v, speed, ambient):
         status = _search(layered, v, speed, ambient)

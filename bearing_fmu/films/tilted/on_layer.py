@@ -24,7 +24,7 @@ from bearing_fmu.contact.slice import AREA, CONTACT_RESULTS, FORCE, PRESSURE, WI
 from bearing_fmu.evaluate import one_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.corners import SPREAD, leaving, mix, rise
-from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, STEP, remember
+from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
 from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
@@ -96,12 +96,12 @@ def _solve_soft(
     change, usual = film.film.blend[:8], film.usual
     share, status = leaving(q, v, speed, change), OK
     for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
-        part = SPREAD if spread == 1 else GRADING
-        status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, part, result)
+        part, of = (SPREAD, SPREAD_OUT) if spread == 1 else (GRADING, ON_LAYER)
+        status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, part, of, result)
         if status != OK:
             break
         if (spread == 1) == (share >= 0.5):
-            remember(film, film.film, ON_LAYER, scales.ambient)
+            remember(film, film.film, of, v, scales.ambient)
         contact[:] = 0.0
         add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact)
         if spread == 0 and share > 0.0:
@@ -126,7 +126,7 @@ def _solve_on_layer(
         share = _gives_way(film, q, gap, result, film.change)
         film.change[8] = share
         if share == 0.0:
-            remember(film, film.rigid, OF_RIGID, scales.ambient)
+            remember(film, film.rigid, OF_RIGID, v, scales.ambient)
             return OK
         film.stiff[:] = result
     status = _solve_soft(film, scales, q, v, speed, result, contact)
@@ -186,6 +186,7 @@ class FilmOnLayer(Film):
         try:
             layered: LayeredFilm = data[3]
             layered.time[STEP] = dt if state.size else 0.0
+            layered.counts[:] = 0.0
             if state.size:
                 layered.then[:] = state
             status = self._kernel(inputs, offset, out, *data)
