@@ -47,7 +47,7 @@ def compare(
         typer.Option(
             metavar="DEPTH",
             parser=one_of(Depth, "--depth"),
-            help="To be compared; repeatable, by default all that solve a film.",
+            help="To be compared; repeatable, by default all that solve a film and know the bores.",
         ),
     ] = None,
     end: Annotated[float | None, typer.Option(metavar="SECONDS", help="End time.")] = None,

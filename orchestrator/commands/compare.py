@@ -29,7 +29,7 @@ from orchestrator.results.folder_lock import lock_folder
 from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.problems import record_size
 from orchestrator.study.children import COMMAND
-from orchestrator.study.compare import COMPARED, Means, refine, run_depths
+from orchestrator.study.compare import COMPARED, Means, fitting, refine, run_depths
 from orchestrator.study.comparison import settings_of
 from orchestrator.study.paper.report import PaperReport, speaks_of
 from orchestrator.study.report import Report
@@ -105,7 +105,8 @@ def run(
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
     refined = refine(scenario) if request.check else None
-    train, asked = train_of(scenario), request.depths or registry.films()
+    train = train_of(scenario)
+    asked = request.depths or fitting(scenario, train, console)
     depths = [depth for depth in registry.names() if depth in asked]
     folder = named(request.out) if request.out else Path("results") / f"{Path(request.source).stem}-compare"
     for place in (folder, partial_folder(folder)):

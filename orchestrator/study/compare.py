@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
+from bearing_fmu import depths
 from orchestrator.case.certify import at_half_step
+from orchestrator.errors import OrchestratorError
 from orchestrator.results.record_files import RECORD_FILE, read_record
 from orchestrator.results.verdicts.judge import worst_bearing
 from orchestrator.scenario.file import scenario_toml, with_overrides
+from orchestrator.scenario.parameters import bearing_parameters
 from orchestrator.study.children import COMMAND, Child, cores, run_children
 from orchestrator.study.comparison import Comparison, gather
 from orchestrator.study.progress import show_runs
@@ -51,8 +54,34 @@ class Means:
     command: Sequence[str] = COMMAND
 
 
+def fitting(scenario: Scenario, train: Train, console: Console) -> list[str]:
+    """Depths with a film that can have every bearing of a train, the deepest first.
+
+    Of each of the others a line says why it is left out.
+
+    Raises
+    ------
+    OrchestratorError
+        None can have them.
+    """
+    fit, reasons = [], []
+    for name in depths.films():
+        try:
+            for seat in train.bearings:
+                depths.find(name).make(bearing_parameters(seat, scenario.film))
+        except ValueError as error:
+            reasons.append(f"{name} left out: {seat.name}: {error}")
+        else:
+            fit.append(name)
+    if not fit:
+        raise OrchestratorError("\n".join(reasons))
+    for line in reasons:
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
+    return fit
+
+
 def run_depths(
-    scenario: Scenario, train: Train, depths: Sequence[str], folder: Path, means: Means, console: Console
+    scenario: Scenario, train: Train, names: Sequence[str], folder: Path, means: Means, console: Console
 ) -> tuple[Comparison, list[xr.Dataset]]:
     """Run a scenario at several depths.
 
@@ -60,8 +89,8 @@ def run_depths(
     ----------
     scenario, train : Scenario, Train
         What is run; its depth counts for nothing.
-    depths : sequence of str
-        The deepest first.
+    names : sequence of str
+        Of the depths, the deepest first.
     folder : Path
         Made if missing. Afterwards the results of each run lie in the folder of its depth, also partial
         ones, beside the scenario (`COMPARED`).
@@ -86,12 +115,12 @@ def run_depths(
         scenario = scenario.model_copy(update={"train": str(path)})
     source = folder / COMPARED
     source.write_text(scenario_toml(scenario), encoding="utf-8")
-    jobs = min(means.jobs or cores(), len(depths))
+    jobs = min(means.jobs or cores(), len(names))
     options = ["--fmus", str(means.fmus.absolute()), "--budget", str(means.budget), "--no-figures"]
     options += ["--rotor", rotor_recipe(train).guid]  # the train may be edited while they start
     options += ["--threads", str(max(1, cores() // jobs))]
-    children = [Child(d, (str(source), "--depth", d, *options), folder / d) for d in depths]
-    with show_runs(depths, console) as show:
+    children = [Child(d, (str(source), "--depth", d, *options), folder / d) for d in names]
+    with show_runs(names, console) as show:
         ended = run_children(children, jobs, show, command=means.command)
     records: dict[str, xr.Dataset | None] = {}
     for child in children:

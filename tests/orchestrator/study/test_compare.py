@@ -1,6 +1,7 @@
 """``bladeloss compare``: on the small train, with a finer check, with runs that die, with wrong input."""
 
 import csv
+import io
 import json
 import re
 import subprocess
@@ -16,8 +17,8 @@ from orchestrator.commands.compare import CompareRequest
 from orchestrator.outcome import INPUT_ERROR, PROCESS_DIED, Outcome
 from orchestrator.results.manifest import MANIFEST
 from orchestrator.results.record_files import read_record
-from orchestrator.scenario.file import load_scenario
-from orchestrator.study.compare import COMPARED, refine
+from orchestrator.scenario.file import load_scenario, train_of
+from orchestrator.study.compare import COMPARED, fitting, refine
 
 SHORT = """\
 title = "Short"
@@ -249,3 +250,19 @@ def test_help_tells_options_and_exit_statuses():
     for option in options.split():
         assert option in text
     assert re.search(rf"\b{PROCESS_DIED}  ", text)
+
+
+@pytest.mark.parametrize(
+    ("example", "fit", "said"),
+    [
+        ("lemon", ["v1", "v2"], "the table film knows the plain bore only; use depth v2"),
+        ("tilting", ["v1", "v2"], "v3 left out: "),
+        ("fan", ["v1", "v2", "table", "v3"], ""),
+    ],
+)
+def test_depths_that_cannot_have_a_bore_are_left_out_and_told(example, fit, said):
+    scenario = load_scenario(f"tests/examples/{example}/{'coast-down' if example == 'fan' else 'loss'}.toml")
+    console = Console(record=True, width=200, quiet=False, file=io.StringIO())
+    assert fitting(scenario, train_of(scenario), console) == fit
+    text = console.export_text()
+    assert said in text and bool(text) == bool(said)
