@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 import sys
 
-from tests.benchmarks.runs import prepare, run
+from tests.benchmarks.runs import Case, prepare, run
 from tests.benchmarks.table import show
 
 PARTS = ("film", "rotor", "fmi", "master", "record")
@@ -18,10 +18,15 @@ def peak_memory() -> float:
 
 
 def main(source: str = "paper", end: float = 0.1) -> None:
-    """Print the split of the time loop."""
-    case = prepare(source, end=end, event={"time": 0.2 * end})
+    """Print the split of the time loop, as the scenario couples and with many rates."""
+    for changes in ({}, {"coupling": "multirate"}):
+        split(prepare(source, end=end, event={"time": 0.2 * end}, **changes))
+
+
+def split(case: Case) -> None:
+    """Print the split of the time loop of a case."""
     before = peak_memory()
-    run(case, end=0.4 * end)  # compiles, and fills the caches of the rotor's maps
+    run(case, end=0.4 * case.scenario().end)  # compiles, and fills the caches of the rotor's maps
     timed = run(case)
     timing, steps = timed.result.timing, timed.result.steps
     rows = [
@@ -32,14 +37,15 @@ def main(source: str = "paper", end: float = 0.1) -> None:
         )
         for part in PARTS
     ]
-    rows.append(("macro step", f"{1e3 * timing.loop / steps:.3f}", "100 %"))
+    rows.append(("step", f"{1e3 * timing.loop / steps:.3f}", "100 %"))
     scenario = case.scenario()
     show(
-        f"c. Macro step: scenario {source}, {scenario.end} s, H = {scenario.step:g} s, {scenario.coupling}, "
+        f"c. Step: scenario {case.source}, {scenario.end} s, H = {scenario.step:g} s, {scenario.coupling}, "
         f"{timed.result.record.sizes['bearing']} bearings {scenario.depth}",
         ("part", "ms a step", "share"),
         rows,
-        f"{steps} steps, {timed.wall:.2f} s wall, {timed.cpu:.2f} s processor time; "
+        f"{steps} steps, {timed.result.evaluations} evaluations, {timed.wall:.2f} s wall, "
+        f"{timed.cpu:.2f} s processor time; "
         f"loading {timing.load:.2f} s, start {timing.equilibrium:.2f} s; "
         f"memory {before:.0f} MB before, {peak_memory():.0f} MB at the peak",
     )
