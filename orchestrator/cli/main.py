@@ -69,7 +69,7 @@ def build(
         typer.Option(metavar="TRAIN", help="Bundled train or folder with train.toml; repeatable."),
     ] = ["turbine"],  # noqa: B006
     ssp: Annotated[
-        bool, typer.Option(help="With the turbine: also bladeloss.ssp, the reference scenario.")
+        bool, typer.Option(help="With the turbine: also bladeloss.ssp, a blade fracture on it.")
     ] = True,
 ) -> None:
     """Build the FMUs: the rotor of a train, and a bearing of each depth; and the SSP.

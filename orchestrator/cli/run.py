@@ -26,7 +26,7 @@ from orchestrator.outcome import status_lines
 from rotor_fmu.train.wording import choice
 
 RUN_HELP = (
-    "Simulate a scenario; without argument the reference scenario of 2 s.\n\n"
+    "Simulate a scenario; without argument the reference scenario.\n\n"
     "Builds the FMUs that are missing or stale, finds the static equilibrium of the train on its rotating "
     "films, runs to the end time and leaves a folder with the record (record.nc for analysis, record.csv for "
     "FMI tools), the summary (summary.txt, summary.json), the scenario as run (scenario.toml) and the "

@@ -14,7 +14,7 @@ from orchestrator.scenario.parameters import needed_depths
 from orchestrator.ssp.export import export, force_only
 from orchestrator.ssp.structure import SspError
 
-DEFAULT_SCENARIO = "paper"
+DEFAULT_SCENARIO = "inertia"
 DEFAULT_NAME = "bladeloss"
 
 

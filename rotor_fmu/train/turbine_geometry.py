@@ -1,9 +1,8 @@
 """The bundled turbine train as a function of a few design figures.
 
-The drawing of a real half-speed set is not public.  `turbine_train` draws a
-plausible one: HP, three LP, generator and exciter, 278 shoulders of 450 to 1600 mm
-on 68 m.  ``data/turbine`` holds its result for the default `TurbineDesign`;
-``python -m rotor_fmu.train.turbine_geometry FOLDER`` writes it.
+The drawing of a real half-speed set is not public.  `turbine_train` draws a plausible one: HP, three LP,
+generator and exciter, 278 shoulders of 450 to 1600 mm on 68 m.  ``data/turbine`` holds its result for the
+default `TurbineDesign`; ``python -m rotor_fmu.train.turbine_geometry FOLDER`` writes it.
 """
 
 from __future__ import annotations
@@ -136,12 +135,11 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
     Parameters
     ----------
     design : TurbineDesign, optional
-        Default: that of the bundled data.
 
     Returns
     -------
     Train
-        Always 278 shoulders and 68.0 m.
+        278 shoulders, 68.0 m.
     """
     design = design or TurbineDesign()
     lathe = _Lathe()
@@ -202,7 +200,9 @@ def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float)
     """12.4 m, 60 shoulders, double flow, nine wheels, symmetric; 9.3 m between the bearings."""
     journal, core = design.lp, design.lp_core_diameter
     d = journal.diameter
-    half = max(320.0, math.ceil(500.0 * journal.width_ratio * d))  # of the journal, which carries the bearing
+    # of the journal, which carries the bearing
+    if (half := max(320.0, math.ceil(500.0 * journal.width_ratio * d))) >= 460.0:
+        raise ValueError(f"lp: a journal {journal.width_ratio * d:g} m wide; there is room for 0.918 m")
     outwards = (
         (1.06, (145,)),
         (0.98, (140,)),

@@ -1,6 +1,6 @@
 """Benchmark i: the film in contact, at several grids, over the states of a run through the fracture.
 
-``python -m tests.benchmarks i``: the paper's scenario on rigid shells, and on lined ones. The way of each
+``python -m tests.benchmarks i``: scenario inertia on rigid shells, and on lined ones. The way of each
 bearing that comes to contact is gone again on the default grid and up to two doublings, each film with its
 own memory, and compared where solids touch.
 """
@@ -126,10 +126,10 @@ def _table(title: str, record: xr.Dataset) -> None:
 
 def main() -> None:
     """Print both tables."""
-    for title, source in (("Rigid shells", "paper"), ("Lined shells", "lined")):
+    for title, source in (("Rigid shells", "inertia"), ("Lined shells", "lined")):
         case = prepare(source, end=END, event={"time": LOSS}, record={"interval": STEP})
         record = run(case).result.record
-        _table(f"{title}, the paper's scenario {1e3 * (END - LOSS):g} ms through the loss", record)
+        _table(f"{title}, scenario inertia {1e3 * (END - LOSS):g} ms through the loss", record)
 
 
 if __name__ == "__main__":

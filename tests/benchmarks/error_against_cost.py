@@ -19,7 +19,7 @@ STEPS = (6e-4, 4e-4, 3e-4, 2e-4, 1.5e-4, 1.2e-4, 1e-4, 5e-5)
 
 OWN_STEPS: dict[str, dict[str, tuple[float, ...]]] = {
     "small": {"gauss-seidel": (1e-5, 4e-6, 3e-6), "jacobi": (2e-6, 1e-6)},
-    "paper": {"gauss-seidel": (1e-5, 4e-6, 1e-6), "jacobi": (4e-6,), "newton": (2e-4, 1e-4), "iqn-ils": ()},
+    "inertia": {"gauss-seidel": (1e-5, 4e-6, 1e-6), "jacobi": (4e-6,), "newton": (2e-4, 1e-4), "iqn-ils": ()},
 }
 """Of others: explicit ones down to where they are accurate or a minute is not enough; on the big train what
 iterates, but for iqn-ils, which halves its steps for many minutes [s]."""

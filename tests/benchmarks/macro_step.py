@@ -17,7 +17,7 @@ def peak_memory() -> float:
     return peak / 2**20 if sys.platform == "darwin" else peak / 2**10
 
 
-def main(source: str = "paper", end: float = 0.1) -> None:
+def main(source: str = "inertia", end: float = 0.1) -> None:
     """Print the split of the time loop, as the scenario couples and with many rates."""
     for changes in ({}, {"coupling": "multirate"}):
         split(prepare(source, end=end, event={"time": 0.2 * end}, **changes))

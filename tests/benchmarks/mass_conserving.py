@@ -74,7 +74,7 @@ def path_of(bearing: str, end: float = 0.06, lost: float = 0.01) -> tuple[Array,
         base = bundled_file("turbine")
         assert base is not None
         file.write_text(TRAIN.format(base=base.as_posix()), encoding="utf-8")
-        case = prepare("paper", train=str(file), end=end, event={"time": lost}, record={"interval": STEP})
+        case = prepare("inertia", train=str(file), end=end, event={"time": lost}, record={"interval": STEP})
         record = run(case).result.record
     position, velocity, speed = film_states(record, bearing, 0, record.sizes["time"])
     inputs = np.concatenate((position, velocity, np.zeros((len(speed), 8)), speed[:, None]), axis=1)

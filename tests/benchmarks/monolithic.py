@@ -1,6 +1,6 @@
 """The holistic model alone: error against cost of scipy's stiff solvers.
 
-``python -m tests.benchmarks.monolithic [small | paper]``
+``python -m tests.benchmarks.monolithic [small | inertia]``
 The reference of benchmark b is the tightest of them; two methods at two tolerances show how far it is to be
 trusted.
 """
@@ -21,7 +21,7 @@ TOLERANCES: dict[Literal["Radau", "BDF"], tuple[float, ...]] = {
 }
 WINDOWS: dict[str, dict[str, object]] = {
     "small": {"end": 0.0996, "event": {"time": 0.0213}, "record": {"interval": 1.2e-3}},
-    "paper": {"end": 0.0816, "event": {"time": 0.0213}, "record": {"interval": 1.2e-3}},
+    "inertia": {"end": 0.0816, "event": {"time": 0.0213}, "record": {"interval": 1.2e-3}},
 }
 """Parts of the bundled scenarios through the fracture, which falls on no macro step; instants at which
 errors are taken, a multiple of every macro step."""

@@ -84,6 +84,6 @@ def rms(force: np.ndarray) -> float:
 
 
 if __name__ == "__main__":
-    name = sys.argv[1] if len(sys.argv) > 1 else "paper"
+    name = sys.argv[1] if len(sys.argv) > 1 else "inertia"
     with tempfile.TemporaryDirectory() as folder:
         sys.exit(0 if report(name, Path(sys.argv[2] if len(sys.argv) > 2 else folder)) else 1)

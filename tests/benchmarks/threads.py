@@ -52,7 +52,7 @@ def films() -> dict[int, float]:
 
 def runs() -> dict[int, float]:
     """The big train's time loop."""
-    case = prepare("paper", end=0.04, event={"time": 0.02})
+    case = prepare("inertia", end=0.04, event={"time": 0.02})
     loops: dict[int, list[float]] = {n: [] for n in THREADS}
     for _ in range(ROUNDS):
         for threads, found in loops.items():

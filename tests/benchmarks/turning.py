@@ -34,7 +34,7 @@ def _changes(case: Case, way: dict[str, object], speed: float) -> dict[str, obje
     return {"events": events} | ({"rotation": rotation} if rotation else {})
 
 
-def main(source: str = "paper", depths: tuple[str, ...] = ("v1", "v2", "v3"), end: float = 0.03) -> None:
+def main(source: str = "inertia", depths: tuple[str, ...] = ("v1", "v2", "v3"), end: float = 0.03) -> None:
     """Print processor time of a macro step and its ratio to that at constant speed, for each depth."""
     rows, ends = [], {"v1": end}
     for depth in depths:

@@ -1,6 +1,6 @@
 """Benchmark g: what a force error costs with many rates, with one rate for all, and with the holistic model.
 
-``python -m tests.benchmarks g``; a train and a picture: ``... .work_precision [small | paper] [FILE.png]``.
+``python -m tests.benchmarks g``; a train and a picture: ``... .work_precision [small | inertia] [FILE.png]``.
 At fixed and controlled steps, in one process, alternately; processor times are the least of two runs.
 """
 

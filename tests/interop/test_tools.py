@@ -85,7 +85,7 @@ def test_force_only_for_the_record(tool, exported, small, tmp_path, record_prope
     ids=["calm", "fracture", "fracture, half the step"],
 )
 def test_turbine_train(system, step, late, turbine, tmp_path, record_property):
-    """A revolution of the reference scenario, and 50 ms with fracture and solid contact moved into them.
+    """A revolution of the turbine, and 50 ms with fracture and solid contact moved into them.
 
     Units that step all at once, each a step late, are allowed `late`; for them alone the step is halved.
     """
@@ -101,12 +101,12 @@ def test_turbine_train(system, step, late, turbine, tmp_path, record_property):
 def turbine(tmp_path_factory):
     """Return a function that gives the SSP of a system, and the forces of its converged run."""
     folder = tmp_path_factory.mktemp("turbine")
-    build(folder, [train_of(load_scenario("paper"))], names=("v1",))
+    build(folder, [train_of(load_scenario("inertia"))], names=("v1",))
     changes = {"calm": {"end": 1.02}, "fracture": {"end": 0.05, "event": {"time": 0.02003}}}
 
     @cache
     def system(name):
-        ssp, _ = export(load_scenario("paper", changes[name]), folder, folder / f"{name}.ssp", "turbine")
+        ssp, _ = export(load_scenario("inertia", changes[name]), folder, folder / f"{name}.ssp", "turbine")
         return ssp, reference(ssp, ENDS[name])
 
     return system

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from orchestrator.scenario.scenario import Scenario
 
-SCENARIOS = ("paper", "subharmonic")
+SCENARIOS = ("paper", "inertia")
 """Bundled scenarios whose trains were fitted to the paper's figures; no other is expected to meet them."""
 _FREE = (
     "title",

@@ -57,6 +57,8 @@ def test_a_tilt_of_the_other_sign_moves_the_least_gap_to_the_other_end(stood):
 def test_no_journal_stands_so():
     with pytest.raises(ValueError, match="no clearance between"):
         settled(replace(WIDE, lp=JournalDesign(0.3, 0.5, 1e-3)))
+    with pytest.raises(ValueError, match=r"lp: a journal 0.9568 m wide; there is room for 0.918 m"):
+        settled(replace(WIDE, lp=JournalDesign(0.832, 1.15, 1e-3)))
 
 
 def test_samples_fill_their_ranges_and_have_a_number_each():

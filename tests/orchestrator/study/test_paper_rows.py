@@ -230,7 +230,7 @@ def test_the_paper_speaks_of_its_own_train_blade_and_bearing_only():
         {"unbalance": {"grade": 6.3e-3}},
     ):
         assert not speaks_of(with_overrides(own, other), all_depths)
-    assert speaks_of(load_scenario("subharmonic"), all_depths)
+    assert speaks_of(load_scenario("inertia"), all_depths)
     assert not speaks_of(load_scenario("small"), all_depths)
 
 
