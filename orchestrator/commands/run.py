@@ -20,7 +20,7 @@ from orchestrator.observers.checkpoint import Checkpoint
 from orchestrator.outcome import Outcome
 from orchestrator.report.library import require_library
 from orchestrator.results.folder_lock import lock_folder
-from orchestrator.results.growing_record import is_growing
+from orchestrator.results.record_files import is_newer
 from orchestrator.results.result import Result
 
 
@@ -63,7 +63,7 @@ def run_case(
 
     def finish(result: Result, half: Result | None = None) -> int:
         status = conclude(case, request, folder, (completed(case, result), half), console, errors)
-        if status == Outcome.NOT_WRITTEN.status and is_growing(running):
+        if status == Outcome.NOT_WRITTEN.status and is_newer(running, folder):
             text = f"The record is kept in {running}: bladeloss report, bladeloss.load read it."
             errors.print(text, highlight=False, soft_wrap=True)
         else:

@@ -29,6 +29,7 @@ Array = NDArray[np.float64]
 ORDERS = (0.5, 1.0, 2.0)
 EXTREMES = ("least_gap", "contact_force", "force")
 """Of a revolution, at the ends of its steps: the least, and the largest two."""
+_GAP, _CONTACT = RESPONSE["h_min"], RESPONSE["contact_force"]
 _TURN = 2.0 * math.pi
 _GOING_ON = ("before", "sum", "last", "range", "most")
 """Those of the revolution that is going on."""
@@ -68,7 +69,7 @@ class Revolutions(Observer):
         self._last = np.full_like(self._sum, np.nan)
         self._signs = np.exp(1j * _TURN * self._orders).real[:, None, None]
         self._range = np.zeros((2, n, 2))
-        self._most = np.zeros((n, len(EXTREMES)))
+        self._most, self._values = np.zeros((n, len(EXTREMES))), np.zeros((n, len(EXTREMES)))
 
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
@@ -96,17 +97,18 @@ class Revolutions(Observer):
 
     def _add(self, first: float, last: float, before: Array, after: Array) -> None:
         turned = 0.5 * (last - first)
-        for k, order in enumerate(ORDERS):
-            self._sum[k] += (turned * np.exp(-1j * order * first)) * before
-            self._sum[k] += (turned * np.exp(-1j * order * last)) * after
+        for angle, motion in ((first, before), (last, after)):
+            self._sum += (turned * np.exp(-1j * self._orders * angle))[:, None, None] * motion
         np.minimum(self._range[0], after, out=self._range[0])
         np.maximum(self._range[1], after, out=self._range[1])
         np.maximum(self._most, self._now(), out=self._most)
 
     def _now(self) -> Array:
-        system = self._system
-        gap, contact = (system.responses[:, RESPONSE[name]] for name in ("h_min", "contact_force"))
-        return np.column_stack([-gap, contact, np.hypot(system.forces[:, 0], system.forces[:, 1])])
+        responses, forces, now = self._system.responses, self._system.forces, self._values
+        np.negative(responses[:, _GAP], out=now[:, 0])
+        now[:, 1] = responses[:, _CONTACT]
+        np.hypot(forces[:, 0], forces[:, 1], out=now[:, 2])
+        return now
 
     def _close(self, time: float) -> None:
         self.rows.add(

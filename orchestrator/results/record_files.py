@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from xarray.backends import H5NetCDFStore
 from xarray.backends.common import ArrayWriter
 
-from orchestrator.results.growing_record import GROWING, is_growing, open_growing
+from orchestrator.results.growing_record import GROWING, HEAD_FILE, is_growing, open_growing
 
 RECORD_FILE = "record.nc"
 TABLE_FILE = "record.csv"
@@ -145,6 +145,12 @@ class _NeverFull(FileIO):
         while done < count:
             done += super().write(memoryview(content).cast("B")[done:])
         return count
+
+
+def is_newer(growing: Path, folder: Path) -> bool:
+    """Whether a record that grows in one folder is not, or not yet, the record in the other."""
+    head, whole = growing / HEAD_FILE, folder / RECORD_FILE
+    return head.is_file() and not (whole.is_file() and whole.stat().st_mtime_ns >= head.stat().st_mtime_ns)
 
 
 def read_record(path: Path) -> xr.Dataset:

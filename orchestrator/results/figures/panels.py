@@ -31,6 +31,8 @@ _PAPER: dict[str, Any] = {
 }
 _LONG = 1500
 """Samples from which a curve is an image in a PDF or SVG, which would be large and slow otherwise."""
+_SIDE_BY_SIDE, _ON_A_LINE = 2, 5
+"""Events that are named beside one another, and means in a line above a panel."""
 _LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
 
 
@@ -134,9 +136,9 @@ def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quanti
 def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = True) -> None:
     """Mark the events."""
     schedule = from_attributes(record.attrs)
-    for event in instants(record):
-        if not view.start <= event <= view.end:
-            continue
+    seen = [event for event in instants(record) if view.start <= event <= view.end]
+    upright = len(seen) > _SIDE_BY_SIDE
+    for event in seen:
         shown = view.shown(event)
         axes.axvline(shown, color=style.EVENT, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1.5)
         if named:
@@ -151,6 +153,7 @@ def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = Tru
                 va="top",
                 fontsize=style.FONT - 1.5,
                 color=style.EVENT,
+                rotation=90.0 if upright else 0.0,
             )
 
 
@@ -173,7 +176,8 @@ def draw_means(
                 label="mean in its window",
                 zorder=4,
             )
-    return f"mean {', '.join(parts)}"
+    lines = [", ".join(parts[k : k + _ON_A_LINE]) for k in range(0, len(parts), _ON_A_LINE)]
+    return "mean " + ",\n".join(lines)
 
 
 def mark(

@@ -3,6 +3,7 @@
 import pytest
 
 from orchestrator.case import conclude as conclude_case
+from orchestrator.case import record_so_far
 from orchestrator.case.checkpoint_folder import checkpoint_folder
 from orchestrator.commands import campbell as campbell_command
 from orchestrator.commands import run as run_command
@@ -47,9 +48,29 @@ def test_a_full_disk_at_the_end_of_a_run(short, small_fmus, monkeypatch):
     assert "MB are needed" in result.stderr and "MB are free" in result.stderr
     names = sorted(path.name for path in short.parent.iterdir())
     assert names == ["out-checkpoint", "short.toml"]
-    assert "bladeloss resume" in result.stderr
+    assert "bladeloss resume" in result.stderr and "out-running" not in result.stderr
     assert call("resume", out).exit_code == 0
     assert read_record(out).attrs["status"] == "finished" and not checkpoint_folder(out).exists()
+
+
+@fault(
+    "machine",
+    "a full disk at the end of a long run without checkpoints",
+    "exit 13, `not-written`; the record stays beside, can be read, and goes with the next run",
+    guard="orchestrator.commands.run:run_case",
+)
+def test_a_record_that_grew_outlives_a_full_disk(short, small_fmus, monkeypatch):
+    monkeypatch.setattr(record_so_far, "HELD", 10_000)
+    with monkeypatch.context() as patch:
+        patch.setattr(conclude_case, "write_all", under_limit(10_000, conclude_case.write_all))
+        result, out = run(short, small_fmus, "--no-figures")
+    assert result.exit_code == NOT_WRITTEN, result.output
+    running = out.with_name("out-running")
+    assert f"The record is kept in {running}" in result.stderr
+    kept = read_record(running)
+    assert kept.sizes["time"] == 101
+    assert run(short, small_fmus, "--no-figures")[0].exit_code == 0
+    assert not running.exists() and read_record(out)["force"].identical(kept["force"])
 
 
 @fault(
