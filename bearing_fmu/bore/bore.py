@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.pads import Pads, pads, place_pads
-from bearing_fmu.kernels.compiled import inner_kernel, kernel
+from bearing_fmu.kernels.compiled import inner_kernel, kernel, stage
 from bearing_fmu.kernels.grid import COS, LAND, METRIC, MOTION, SIN, grade, place, sharpen
 from fmus.port.bore import Arc
 
@@ -166,7 +166,7 @@ def gap_turn(bore: Bore, side: int, ex: float, ey: float, ring: Floats, i: int) 
     return (ex + bore.centre[side, 0, i]) * ring[SIN, i] - (ey + bore.centre[side, 1, i]) * ring[COS, i]
 
 
-@inner_kernel
+@stage
 def land(bore: Bore, ring: Floats) -> Floats:
     """Metric of that part of the columns' cells which lies on the bore and not in grooves."""
     if bore is None:

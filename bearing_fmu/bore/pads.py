@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import COS, LAND, METRIC, MOTION, RING_ROWS, SIN, STRETCHING, grade
 from fmus.port.bore import TURN, Arc
 
@@ -148,7 +149,7 @@ def place_pads(pads: Pads, q: Floats, coordinates: int, grading: Floats, rings: 
     rings : ndarray, shape (2, RING_ROWS, m)
         Result.
     """
-    rings[:] = pads.rest
+    copy(pads.rest.reshape(-1), rings.reshape(-1))
     m = rings.shape[2]
     a, da, seen = grading[0, :2], grading[1:3], grading[6]
     for pad in range(pads.first.shape[0]):

@@ -1,7 +1,8 @@
 """How the kernels of this package are compiled.
 
 Division follows IEEE 754 (results are checked for NaN once, at the end), sums may be reordered and
-products fused, nothing else is relaxed.
+products fused, nothing else is relaxed.  Kernels allocate nothing and return no arrays, so that numba need
+not count references: what it takes for that would be a sixth of the time in which they compile.
 
 numba keeps compiled code next to the sources and renews it when the file of a function changes, but
 not when a function it calls changes in another file.  Here the whole package is the unit: any
@@ -20,6 +21,7 @@ from typing import Any, TypeVar
 
 from numba import config, njit
 
+from bearing_fmu.kernels.inlined import PartCompiler, read_as_parts
 from bearing_fmu.kernels.kept import KeptFile
 
 # Kernels read records by the names of their fields, which they can do compiled only.
@@ -31,6 +33,7 @@ _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract", "reassoc", "arcp"},
+    "_nrt": False,
 }
 
 
@@ -85,7 +88,8 @@ def inner_kernel(function: _Function) -> _Function:
     It is always inlined: a kernel that was compiled beside it in this process, and one that comes from
     the cache, then run the same code, and give the same numbers to the bit.
     """
-    return _compile(function, {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True})
+    alone = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
+    return _compile(function, alone | {"pipeline_class": PartCompiler})
 
 
 def stage(function: _Function) -> _Function:
@@ -106,6 +110,8 @@ def _compile(function: _Function, more: dict[str, Any]) -> _Function:
     cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, _stamp(function))
     # numba's own key holds what a function draws on, which is another object in every process
     cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
+    if more.get("pipeline_class") is PartCompiler:
+        read_as_parts(cache)
     save = cache.save_overload
 
     def save_if_possible(*arguments: Any) -> None:

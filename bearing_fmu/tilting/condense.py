@@ -142,7 +142,8 @@ def add_condensed(
         for i in range(16):
             total[OUT_K + i] += freed[i // 4, i % 4].real
         if rate == 0.0:  # the pad follows at once, before its spring does
-            held[:] = c
+            for i in range(16):
+                held[i // 4, i % 4] = c[i // 4, i % 4]
             rubbing[:] = 0.0
             spring = _NO_SPRING if spring > 0.0 else 0.0
         _freed(held, c, rubbing, 0.0, axes, spring, freed)

@@ -13,7 +13,8 @@ from bearing_fmu.bore.pads import Pads
 from bearing_fmu.contact.contact import sliding_sense
 from bearing_fmu.contact.slice import LOAD, PRESSURE, largest_pressure
 from bearing_fmu.evaluate import CONTACT, DRAFT, RESULT
-from bearing_fmu.kernels.compiled import inner_kernel, variant
+from bearing_fmu.kernels.compiled import inner_kernel, stage, variant
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.outputs import (
     HOTTEST,
     INPUTS,
@@ -32,6 +33,7 @@ from bearing_fmu.tilting.pad import ACROSS, TOWARDS, Pivot
 from bearing_fmu.tilting.search import GO_ON, SEARCH, SHARE, D, Seat, W, begin, proceed
 
 Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Constants = NDArray[np.void]
 
 _NOTHING = 1e-12
@@ -40,7 +42,7 @@ _SEEN = SEARCH
 _PLACE = _SEEN + INPUTS
 _ANCHOR = _PLACE + 4
 _TOLD = _ANCHOR + 2
-_ROOM = _TOLD + OUTPUTS
+ROOM = _TOLD + OUTPUTS
 # Among the outputs from `OUT_GAP` on: pressures, of which the largest counts, and what adds up.
 _PRESSURES, _OVERLAP, _SUMS = (3, 12), 13, (4, 14, 15, 16)
 
@@ -67,13 +69,13 @@ def _moved(pivot: Pivot, inputs: Floats, search: Floats, rate: float, anchor: Fl
     """The inputs as a pad at its place sees them."""
     d, w = search[D], search[W]
     fast_d, fast_w = rate * (d - anchor[0]), rate * (w - anchor[1])
-    seen[:] = inputs
+    copy(inputs, seen)
     for i in range(2):
         seen[i] += d * pivot[ACROSS + i] + w * pivot[TOWARDS + i]
         seen[4 + i] += fast_d * pivot[ACROSS + i] + fast_w * pivot[TOWARDS + i]
 
 
-@inner_kernel
+@stage
 def _pad_of(pads: Pads, k: int) -> Pads:
     """The bore of one pad alone."""
     return Pads(
@@ -144,12 +146,12 @@ def pads_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
     Returns
     -------
     kernel
-        ``(inputs, offset, state, rate, whirl, friction, pivots, pads, constants, table, film, work, now,
-        out)``: the port's inputs and the bearing's offset; d, w and their velocities of each pad, shape
-        (pads, 2, 2); 2/dt, or 0 at rest; frequency over the speed of the motions for which stiffness and
-        damping at rest hold; friction coefficient; pivots and bores of the pads, see `pad`; constants,
-        table, film and work as of `port_kernel`, of one pad; results: the state after the step, and the
-        port's outputs.
+        ``(inputs, offset, state, rate, whirl, friction, pivots, pads, constants, table, film, work, room,
+        matrices, now, out)``: the port's inputs and the bearing's offset; d, w and their velocities of each
+        pad, shape (pads, 2, 2); 2/dt, or 0 at rest; frequency over the speed of the motions for which
+        stiffness and damping at rest hold; friction coefficient; pivots and bores of the pads, see `pad`;
+        constants, table, film and work as of `port_kernel`, of one pad; zeros to work in, shapes (ROOM,) and
+        (5, 4, 4); results: the state after the step, and the port's outputs.
     """
 
     def evaluate_pads(
@@ -165,12 +167,13 @@ def pads_kernel(name: str, solve: Callable[..., int], touch: Callable[..., None]
         table: Floats,
         film: Any,
         work: Floats,
+        room: Floats,
+        matrices: Complex,
         now: Floats,
         out: Floats,
     ) -> int:
         scales = constants[0]
         own, result, contact, draft = work[:RESULT], work[RESULT:CONTACT], work[CONTACT:DRAFT], work[DRAFT:]
-        room, matrices = np.zeros(_ROOM), np.zeros((5, 4, 4), np.complex128)
         search, seen, q = room[:_SEEN], room[_SEEN:_PLACE], room[_PLACE:_ANCHOR]
         anchor, told, speed = room[_ANCHOR:_TOLD], room[_TOLD:], inputs[16]
         sense, grip = 1.0 if speed >= 0.0 else -1.0, friction * sliding_sense(speed, scales.radius)

@@ -13,6 +13,7 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.outputs import OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.status import OK
+from bearing_fmu.tilting.evaluate import ROOM
 from bearing_fmu.tilting.pad import ACROSS, COMPLIANCE, alone, pivots
 from fmus import port
 from fmus.port.variable import Value
@@ -181,8 +182,9 @@ class TiltingFilm(Film):
         if chosen is not _ALL:
             bores = Pads._make(field[chosen] for field in bores)
         settings = rate, self.whirl, self.parameters.friction
+        room = np.zeros(ROOM), np.zeros((5, 4, 4), np.complex128)
         return int(
             self._kernel_of_pads(
-                inputs, offset, then, *settings, pivots, bores, constants, table, film, work, now, out
+                inputs, offset, then, *settings, pivots, bores, constants, table, film, work, *room, now, out
             )
         )

@@ -20,6 +20,7 @@ from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.kernels.compiled import stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
@@ -44,7 +45,7 @@ def _solve(
         ):
             return NO_SOLUTION
         if spread == 0 and share > 0.0:
-            usual[:] = result
+            copy(result, usual)
     if 0.0 < share < 1.0:
         mix(usual, share, change, result)
     return OK

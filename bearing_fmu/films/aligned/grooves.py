@@ -7,20 +7,21 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore
 from bearing_fmu.films.aligned.workspace import AlignedFilm
-from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.result import CONDUCTANCE, GAP, OPEN, OPEN_1, SQUEEZE
 
 Floats = NDArray[np.float64]
 
 
-@inner_kernel
+@stage
 def links(film: AlignedFilm, bore: Bore) -> Floats:
     """What couples neighbouring columns: the conductances, but not next to columns of given pressure."""
     along = film.fields[1, CONDUCTANCE]
     if bore is None:
         return along
     cut, m = film.forcing[7], film.circle.shape[2]
-    cut[:] = along
+    copy(along, cut)
     for i in bore.held:
         cut[i] = 0.0
         cut[i - 1 if i > 0 else m - 1] = 0.0

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.films.jfo.workspace import FACES, KEPT, OWED, PAID, STEP, VOID, VOLUME, JfoFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import COS, SIN
 
 Floats = NDArray[np.float64]
@@ -50,9 +51,9 @@ def face_angles(jfo: JfoFilm) -> None:
 @stage
 def begin_full(jfo: JfoFilm) -> None:
     """A full film on the grid of now, to which nothing is owed."""
-    jfo.edges[0] = jfo.edges[1]
+    copy(jfo.edges[1], jfo.edges[0])
     jfo.before[:] = 0.0
-    jfo.before[VOLUME] = jfo.volumes
+    copy(jfo.volumes.reshape(-1), jfo.before[VOLUME].reshape(-1))
     jfo.dense[:] = 0.0
 
 
@@ -65,7 +66,7 @@ def bring_over(jfo: JfoFilm) -> None:
     n, m = jfo.volumes.shape
     old, new = jfo.edges[0], jfo.edges[1]
     then = jfo.then[FACES + m :].reshape((KEPT, n, m))
-    old[:m] = jfo.then[FACES : FACES + m]
+    copy(jfo.then[FACES:], old[:m])
     old[m] = old[0] + _TURN
     # the faces of now in the turn of those of then; the column between the faces k - 1 and k is k
     shift = _TURN * np.floor((new[0] - old[0]) / _TURN)
@@ -117,7 +118,7 @@ def remember(jfo: JfoFilm) -> None:
     n, m = jfo.volumes.shape
     now = jfo.now[FACES + m :].reshape((KEPT, n, m))
     dt, paid = jfo.time[STEP], jfo.time[PAID]
-    jfo.now[FACES : FACES + m] = jfo.edges[1, :m]
+    copy(jfo.edges[1], jfo.now[FACES : FACES + m])
     for j in range(n):
         content, held = jfo.net.content[j], jfo.net.held[j]
         volume, void, owed = jfo.before[VOLUME, j], jfo.before[VOID, j], jfo.before[OWED, j]

@@ -28,6 +28,7 @@ from bearing_fmu.films.tilted.tangent import (
     residual_tangent,
 )
 from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
 from bearing_fmu.kernels.unsymmetric_solver import solve_ring
 from bearing_fmu.result import STIFFNESS
@@ -148,7 +149,7 @@ def add_layered_tangent(
     for k in range(4):
         unfold(film, k + 1, k, 4)
     explicit = layered.explicit
-    explicit[:] = result[STIFFNESS : STIFFNESS + 16]
+    copy(result[STIFFNESS : STIFFNESS + 16], explicit)
     prepare(film, speed)
     damping(film, result)
     for k in range(4):

@@ -32,6 +32,7 @@ from bearing_fmu.films.tilted.solve import solve_tilted
 from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.outputs import OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import DAMPING, RESULTS, STIFFNESS
@@ -105,8 +106,8 @@ def _solve_soft(
         contact[:] = 0.0
         add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact)
         if spread == 0 and share > 0.0:
-            usual[:RESULTS] = result
-            usual[RESULTS:] = contact
+            copy(result, usual[:RESULTS])
+            copy(contact, usual[RESULTS:])
     if status == OK and 0.0 < share < 1.0:
         mix(usual[:RESULTS], share, change, result)
         _mix_contact(usual[RESULTS:], share, change, scales.force, half, result, contact)
@@ -128,7 +129,7 @@ def _solve_on_layer(
         if share == 0.0:
             remember(film, film.rigid, OF_RIGID, v, scales.ambient)
             return OK
-        film.stiff[:] = result
+        copy(result, film.stiff)
     status = _solve_soft(film, scales, q, v, speed, result, contact)
     if status != OK:
         return status

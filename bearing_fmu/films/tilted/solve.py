@@ -11,6 +11,7 @@ from bearing_fmu.films.tilted.reynolds import solve_pressure
 from bearing_fmu.films.tilted.tangent import add_tangent
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import OK
 
@@ -46,7 +47,7 @@ def solve_tilted(
             break
         add_tangent(film, bore, q, v, speed, result)
         if spread == 0 and share > 0.0:
-            usual[:] = result
+            copy(result, usual)
     if status == OK and 0.0 < share < 1.0:
         mix(usual, share, change, result)
     return status
