@@ -21,6 +21,7 @@ from bearing_fmu.films.tilted.lines import SHARE
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
 from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import METRIC
 from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring, transpose_ring
 from bearing_fmu.result import FLOW, GAP
@@ -165,7 +166,7 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
             misfit = _misfit(layered, rate * flow) / before
             if misfit > _BACK:
                 rate, fresh = _RISE * max(rate, _LEAST), True
-                film.sides[: m * width] = layered.kept
+                copy(layered.kept, film.sides[: m * width])
                 continue
             rate *= min(max(misfit / _WANTED, _FALLS[1]), _GROWTH)
         elif not fresh and before > 0.0:
