@@ -22,6 +22,7 @@ from bearing_fmu.films.tilted.layered import KEPT, LayeredFilm
 from bearing_fmu.films.tilted.tangent import BY_METRIC, TANGENT
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
 from bearing_fmu.result import DAMPING, STIFFNESS
 
@@ -43,7 +44,7 @@ def remember(layered: LayeredFilm, film: TiltedFilm, of: float, v: Floats, ambie
     n, m = layered.was.shape[1], layered.was.shape[2]
     now, then, soft, rate = layered.now, layered.then, layered.constants[2], layered.time[RATE]
     now[0], now[_MAP], now[_MAP + 1] = of, film.grading[0, 0], film.grading[0, 1]
-    now[_VELOCITY : _VELOCITY + 4] = v
+    copy(v, now[_VELOCITY : _VELOCITY + 4])
     follows = of != OF_RIGID and rate > 0.0 and then[0] == of
     now[_RATES] = 1.0 if follows else 0.0
     for j in range(n):
