@@ -48,6 +48,8 @@ def shape_problems(error: ValidationError) -> Iterator[Problem]:
         elif kind == "depth":
             value = problem["input"]
             text = f"{where} = {shown(value)}; {choice(str(value), problem['ctx']['allowed'])}"
+        elif kind == "value_error" and "allowed is" in problem["msg"]:
+            text = f"{where} = {shown(problem['input'])}; {problem['msg'].removeprefix('Value error, ')}"
         else:
             text = refusal(where, problem, _description(path))
         yield problem["loc"], text

@@ -137,7 +137,7 @@ def test_refused_changes():
     for change, allowed in (
         ({"parameter": "clearance", "value": 1e-4}, "clearance"),
         ({"parameter": "viscosity", "value": -1.0}, "allowed is > 0"),
-        ({"parameter": "viscosity"}, "either value or by"),
+        ({"parameter": "viscosity"}, "; allowed is either value or by"),
     ):
         event = {"kind": "change", "bearing": "fan-side", "time": 0.1, **change}
         with pytest.raises(ScenarioError, match=allowed):
