@@ -4,6 +4,8 @@ import os
 
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")  # before numpy is loaded; for processes that tests start, too
+# numba colours messages that nobody reads, of types it tries: some percent of the time in which it compiles
+os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
 
 import subprocess  # noqa: E402
 import sys  # noqa: E402

@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, event, example, given, settings
+from hypothesis import assume, event, example, given
 from hypothesis import strategies as st
 
 from bearing_fmu.film import FilmStatus
 from tests.bearing_fmu.bearings import force_unit, lever, plain, respond
 from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
+from tests.properties.examples import examples
 from tests.properties.journals import DEPTHS, bearings, film, positions, rates, speeds, turned
 
 pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
@@ -18,7 +19,7 @@ ANY = st.floats(allow_nan=True, allow_infinity=True)
 
 
 @given(DEPTHS, bearings(), st.lists(st.one_of(ANY, st.floats(-3.0, 3.0)), min_size=21, max_size=21))
-@settings(max_examples=250)
+@examples(250)
 def test_any_input_gives_finite_outputs_or_a_named_status(depth, parameters, numbers):
     """Whatever arrives at the port: beyond the clearance, enormous, not a number."""
     units = np.tile(lever(parameters), 5)
@@ -40,7 +41,7 @@ def test_any_input_gives_finite_outputs_or_a_named_status(depth, parameters, num
 
 
 @given(DEPTHS, bearings(), positions(deepest=1.3), rates(largest=2.0), speeds())
-@settings(max_examples=200)
+@examples(200)
 def test_outputs_belong_together(depth, parameters, q, v, speed):
     """Within the clearance and beyond: the status is that of the gap, and the law gives the wrench."""
     units = lever(parameters)
@@ -71,7 +72,7 @@ def test_outputs_belong_together(depth, parameters, q, v, speed):
 
 
 @given(DEPTHS, bearings(), positions(deepest=1.02), rates(), speeds(), st.integers(1, 60))
-@settings(max_examples=100)
+@examples(100)
 def test_turning_state_and_load_turns_the_wrench(depth, parameters, q, v, speed, cells):
     """By whole cells of the grid to rounding."""
     bearing = film(depth, parameters)
@@ -88,7 +89,7 @@ def test_turning_state_and_load_turns_the_wrench(depth, parameters, q, v, speed,
 
 
 @given(DEPTHS, bearings(contact=False, ambient=0.0), positions(deepest=0.9), rates(largest=1.0), speeds())
-@settings(max_examples=200)
+@examples(200)
 def test_a_film_takes_more_power_than_its_shear_loses(depth, parameters, q, v, speed):
     """What drive and lateral motion put in beyond the shear is lost in pressure flow, so it is positive."""
     response = respond(film(depth, parameters), q, v, speed)
@@ -104,7 +105,7 @@ def test_a_film_takes_more_power_than_its_shear_loses(depth, parameters, q, v, s
 
 
 @given(bearings(contact=False, ambient=0.0), positions(deepest=0.8), rates(), speeds())
-@settings(max_examples=12)
+@examples(12)
 def test_power_balance_of_a_tilted_film(parameters, q, v, speed):
     """Against the losses in a solution by finite volumes."""
     units = lever(parameters)
@@ -126,7 +127,7 @@ def test_power_balance_of_the_short_bearing(parameters, q, v, speed):
 
 
 @given(DEPTHS, bearings(contact=False), positions(deepest=0.9), rates(), speeds())
-@settings(max_examples=100)
+@examples(100)
 def test_the_tangent_is_the_derivative_of_the_wrench(depth, parameters, q, v, speed):
     """Against central differences, along a direction of each kind."""
     bearing = film(depth, parameters)
@@ -159,7 +160,7 @@ def test_v1_without_tilt_is_v2(parameters, q, v, speed):
 
 
 @given(positions(deepest=0.8, tilted=False), rates(largest=0.3, tilted=False), speeds())
-@settings(max_examples=25)
+@examples(25)
 @example(np.array([0.6, 0.0, 0.0, 0.0]), np.zeros(4), 100.0)
 def test_v1_tends_to_v3_as_the_bearing_gets_narrow(q, v, speed):
     """The difference falls with (b/d)^2."""
@@ -181,7 +182,7 @@ def test_v1_tends_to_v3_as_the_bearing_gets_narrow(q, v, speed):
     speeds(),
     st.tuples(*[st.floats(0.2, 5.0)] * 4),
 )
-@settings(max_examples=100)
+@examples(100)
 def test_similar_bearings_have_similar_wrenches(depth, parameters, q, v, speed, factors):
     """Over eta omega R (b/2) (R/C)^2 the wrench knows b/d, q/C and v/(C omega) only (Sommerfeld)."""
     size, play, oil, pace = factors

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from hypothesis import event, given, settings
+from hypothesis import event, given
 from hypothesis import strategies as st
 
 from orchestrator.case.case import ssp_case
@@ -26,6 +26,7 @@ from rotor_fmu.train.train import Train
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 from tests.properties.damage import bytes_of, lines_of, unzipped, zipped
+from tests.properties.examples import examples
 
 pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
@@ -65,7 +66,7 @@ def said(error: Exception, *names: str) -> None:
     guard="rotor_fmu.train.toml_source:read_toml",
 )
 @given(st.one_of(lines_of(SCENARIO).map(str.encode), bytes_of(SCENARIO.encode())))
-@settings(max_examples=400)
+@examples(400)
 def test_damaged_scenario(content):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "damaged.toml"
@@ -85,7 +86,7 @@ def test_damaged_scenario(content):
     guard="rotor_fmu.train.table:_text",
 )
 @given(st.data())
-@settings(max_examples=300)
+@examples(300)
 def test_damaged_train(data):
     files = {name: (SMALL / name).read_text(encoding="utf-8") for name in ("train.toml", "shaft.csv")}
     harmed = data.draw(st.sampled_from(sorted(files)))
@@ -119,7 +120,7 @@ TEXTS = ("SystemStructure.ssd", "resources/rotor.ssv", "resources/front.ssv")
     guard="orchestrator.ssp.reader:read_ssp",
 )
 @given(st.data())
-@settings(max_examples=60)
+@examples(60)
 def test_damaged_ssp(ssp, room, tmp_path_factory, data):
     """Its texts, line by line; the FMUs inside are whole."""
     name = data.draw(st.sampled_from(TEXTS))
@@ -135,7 +136,7 @@ def test_damaged_ssp(ssp, room, tmp_path_factory, data):
 
 
 @given(st.data())
-@settings(max_examples=60)
+@examples(60)
 def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
     """The bytes of the archive, with its texts alone."""
     path = tmp_path_factory.getbasetemp() / "damaged.ssp"
@@ -154,7 +155,7 @@ def test_damaged_archive_of_an_ssp(ssp, room, tmp_path_factory, data):
     guard="orchestrator.fmi.file:FmuFile.__init__",
 )
 @given(st.data())
-@settings(max_examples=150)
+@examples(150)
 def test_damaged_fmu(toy_fmus, room, tmp_path_factory, data):
     """Its description line by line, or the bytes of the archive."""
     members = unzipped(toy_fmus / "spring_damper.fmu")
@@ -201,7 +202,7 @@ def interrupted(toy_fmus, tmp_path_factory):
     guard="orchestrator.observers.checkpoint:read",
 )
 @given(st.data())
-@settings(max_examples=60)
+@examples(60)
 def test_damaged_checkpoint(interrupted, room, data):
     """It is refused, or the run goes on: zip archives tell of every other byte."""
     scenario, toy, content = interrupted

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, event, given, settings
+from hypothesis import assume, event, given
 from hypothesis import strategies as st
 
 from bearing_fmu import depths
@@ -12,6 +12,7 @@ from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, parse_scenario, scenario_toml
 from orchestrator.scenario.scenario import COUPLINGS, REDUCTIONS, Scenario
 from tests.faults import fault
+from tests.properties.examples import examples
 from tests.properties.journals import logarithmic
 
 pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
@@ -77,7 +78,7 @@ def loaded(raw: dict) -> Scenario:
     guard="orchestrator.scenario.file:scenario_toml",
 )
 @given(settings_of_small())
-@settings(max_examples=200)
+@examples(200)
 def test_a_scenario_survives_its_file(raw):
     scenario = loaded(raw)
     text = scenario_toml(scenario)
@@ -100,7 +101,7 @@ ANYTHING = st.recursive(
 
 
 @given(st.dictionaries(KEYS, ANYTHING, min_size=1, max_size=4))
-@settings(max_examples=300)
+@examples(300)
 def test_any_values_make_a_scenario_or_are_refused_with_their_keys(changes):
     try:
         assert isinstance(load_scenario("small", changes), Scenario)
@@ -112,7 +113,7 @@ def test_any_values_make_a_scenario_or_are_refused_with_their_keys(changes):
 
 
 @given(settings_of_small(longest=0.01))
-@settings(max_examples=15)
+@examples(15)
 def test_a_run_ends_with_numbers_or_the_name_of_what_failed(train_fmus, raw):
     """Steps up to a tenth of a revolution, every coupling: what is recorded is finite."""
     scenario = loaded(raw)

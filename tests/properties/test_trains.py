@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import scipy.linalg as sl
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rotor_fmu.reduction.reduce import reduce
@@ -15,6 +15,7 @@ from rotor_fmu.train.file import load_train
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.writer import write_train
 from rotor_fmu.vibration.rotor import Rotor
+from tests.properties.examples import examples
 from tests.properties.shafts import laws, trains
 
 pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
@@ -46,7 +47,7 @@ def test_matrices_are_symmetric_and_free_of_forces_in_rigid_motion(train):
 
 
 @given(trains(), METHODS)
-@settings(max_examples=25)
+@examples(25)
 def test_a_reduction_is_symmetric_and_never_softer(train, method):
     """Galerkin: rigid motion stays free, and no natural frequency falls below that of the full shaft."""
     model = assemble(train)
@@ -75,7 +76,7 @@ def test_loads_of_the_bearings_balance_the_weight(train):
 
 
 @given(trains(), st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_rest_in_equilibrium_stays_rest(train, data):
     """Static wrenches balance the weight, and steps of any length leave the shaft where it is."""
     law = data.draw(laws(train))
@@ -94,7 +95,7 @@ def test_rest_in_equilibrium_stays_rest(train, data):
 
 
 @given(trains(), st.data())
-@settings(max_examples=15)
+@examples(15)
 def test_energy_after_a_push_stays_bounded(train, data):
     """Of shaft, weight and springs, through steps far longer than the period of most modes.
 
@@ -127,7 +128,7 @@ def test_energy_after_a_push_stays_bounded(train, data):
 
 
 @given(trains())
-@settings(max_examples=30)
+@examples(30)
 def test_trains_survive_files_and_json(tmp_path_factory, train):
     assert Train.from_json(train.to_json()) == train
     folder = tmp_path_factory.mktemp("train")

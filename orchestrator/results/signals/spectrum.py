@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
-from scipy.signal import get_window
 
 from orchestrator.results.signals.orders import turned_angle
 
@@ -131,7 +130,16 @@ def _lines(size: int, step: float) -> Floats:
 def _amplitudes(rows: Floats, window: str) -> Floats:
     """One-sided amplitudes along the last axis."""
     size = rows.shape[-1]
-    weights = get_window(window, size)
+    weights = _weights(window, size)
     lines = np.abs(np.fft.rfft(weights * (rows - rows.mean(axis=-1, keepdims=True)))) / weights.sum()
     lines[..., 1 : (size + 1) // 2] *= 2.0
     return np.asarray(lines, dtype=float)
+
+
+def _weights(window: str, size: int) -> Floats:
+    """The window; scipy.signal, a second of loading, only for one that is not the usual one."""
+    if window == "hann":
+        return np.asarray(0.5 - 0.5 * np.cos(2.0 * np.pi / size * np.arange(size)), dtype=float)
+    from scipy.signal import get_window
+
+    return np.asarray(get_window(window, size), dtype=float)

@@ -119,8 +119,18 @@ def within(shafts, monkeypatch):
     return enter
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("name", [*ROWS, "fine"])
+LONG_ON_FINE = ("campbell", "campbell --supported", "harmonic")
+"""Which walk over speed; that a fine mesh goes through `modes` and `reductions` is told at once."""
+
+
+@pytest.mark.parametrize(
+    ("name", "command"),
+    [
+        pytest.param(name, command, marks=[pytest.mark.slow] * (name == "fine" and command in LONG_ON_FINE))
+        for name in (*ROWS, "fine")
+        for command in COMMANDS
+    ],
+)
 def test_every_linear_command_works_on_every_shaft(within, name, command):
     within(name)
     first, *options = command.split()
