@@ -244,7 +244,7 @@ def test_a_failed_write_leaves_nothing(finished, tmp_path, monkeypatch):
     def fail(*_args, **_kwargs):
         raise OSError("disk full")
 
-    monkeypatch.setattr("orchestrator.results.record_files.netcdf", fail)
+    monkeypatch.setattr("orchestrator.results.record_files._write_netcdf", fail)
     with pytest.raises(OSError, match="disk full"):
         write_record(finished.record, tmp_path)
     assert list(tmp_path.iterdir()) == []
