@@ -17,6 +17,7 @@ from orchestrator.results.certificate import Certificate
 from orchestrator.results.files import add, write_all
 from orchestrator.results.folder import FIGURES, partial_folder
 from orchestrator.results.record import outcome_attributes
+from orchestrator.results.record_files import RECORD_FILE
 from orchestrator.results.result import Result
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import SummaryTable
@@ -53,7 +54,7 @@ def conclude(
         summary = replace(summarise(result, analysed=request.bearing), certificate=certificate)
     outcome, message = result.outcome, f"{summary.message}. {summary.advice}"
     place = folder if outcome.ok else partial_folder(folder)
-    written = False
+    written, before = False, _written_at(place)
     if outcome.ok or summary.phases:
         try:
             write_all(result, summary, case.scenario, case.train, request.formats, place)
@@ -71,6 +72,8 @@ def conclude(
         except KeyboardInterrupt as error:
             outcome = outcome_of(error)
             message = f"the run had ended, and its data are complete in {place}; its figures are not drawn"
+            if _written_at(place) == before:
+                message = f"the run had ended, but its data are not written in {place}"
     console.print(SummaryTable(summary))  # whatever goes wrong from here on, the results are there
     asked, used = case.scenario.reduction, result.record.attrs.get("reduction_used")
     if used not in (None, asked):
@@ -88,6 +91,12 @@ def conclude(
         text = f" {outcome.value} (exit status {outcome.status}): {message}"
         errors.print(Text.assemble(("error:", "red"), text), soft_wrap=True)
     return outcome.status
+
+
+def _written_at(folder: Path) -> int:
+    """When the record in a folder was written, in ns; 0 without one."""
+    path = folder / RECORD_FILE
+    return path.stat().st_mtime_ns if path.is_file() else 0
 
 
 def completed(case: Case, result: Result) -> Result:

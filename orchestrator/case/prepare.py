@@ -60,7 +60,9 @@ def prepare(
         if writes:
             for place in (folder, partial_folder(folder)):
                 check_folder(place)
-            check_room(folder, record_size(case.scenario, case.train))
+            # the record, and what it is joined from; with a certificate that of twice the steps besides
+            copies = 3.0 if request.certify else 2.0
+            check_room(folder, copies * record_size(case.scenario, case.train))
         if request.checkpoint is not None:
             check_checkpoint(folder)
         known = vouched(saved.about.get("trusted", {})) if saved is not None else ()

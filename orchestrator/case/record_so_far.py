@@ -16,6 +16,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from orchestrator.errors import NotWrittenError
 from orchestrator.master.observer import Observer
 from orchestrator.master.stepping import Stepper
 from orchestrator.observers.checkpoint import CheckpointError
@@ -85,7 +86,8 @@ class RecordSoFar(Observer):
             self._written = open_growing(self.folder).first(counts)
             if GrowingRecord(self.folder, self.make()).layout != self._written.layout:
                 raise GrowingRecordError(f"{files_of(self.folder)[0]}: is of a record with other series")
-        except GrowingRecordError as error:
+            self._written.write_head()  # what follows is written over what it counted besides
+        except (GrowingRecordError, OSError) as error:
             raise CheckpointError(
                 f"{error}; {checkpoint.name} goes on from there: put the files back, or start anew"
             ) from None
@@ -99,7 +101,13 @@ class RecordSoFar(Observer):
             self.write()
 
     def write(self) -> None:
-        """Write what is complete."""
+        """Write what is complete.
+
+        Raises
+        ------
+        NotWrittenError
+            When what was written before is not there any more.
+        """
         with self._lock:
             self._last = monotonic()
             count = self.recorder.size
@@ -110,6 +118,8 @@ class RecordSoFar(Observer):
             try:
                 data = self.make().assign_attrs(status=RUNNING)
                 self._written = before.append(data)
+            except GrowingRecordError as error:
+                raise NotWrittenError(f"{error}; without what was written there is no record") from None
             except OSError as error:
                 self._allowed *= 2
                 self.warn(f"{self.folder}: the record so far cannot be written, it stays in memory: {error}")

@@ -254,7 +254,7 @@ class _TimeLoop:
         rest = end.wall_time - film - rotor - fmi - end.record_time
         timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
-        record = self._record(self._recorder, outcome, message)
+        record = self._record(outcome, message)
         if outcome.ok:
             outcome, message = judge(record, self._case.train)
             record = record.assign_attrs(outcome_attributes(outcome, message))
@@ -266,16 +266,16 @@ class _TimeLoop:
 
     def _hung(self, message: str) -> Result:
         """Make the result of a loop that hangs in a unit."""
-        record = self._record(self._recorder.copy(), Outcome.UNIT_HUNG, message)
+        record = self._record(Outcome.UNIT_HUNG, message)
         evaluations = self._system.bearing_group.evaluations
         return Result(record, Outcome.UNIT_HUNG, message, self._timing, 0, evaluations)
 
-    def _record(self, recorder: Recorder, outcome: Outcome, message: str) -> xr.Dataset:
+    def _record(self, outcome: Outcome, message: str) -> xr.Dataset:
         """The whole record; of what grew on disk its series are read when they are used."""
-        if self._so_far is None:
-            return self._held(recorder, outcome, message)
-        self._so_far.finish()
-        return self._so_far.joined(self._held(recorder, outcome, message))
+        if self._so_far is not None:
+            self._so_far.finish()
+        held = self._held(self._recorder.copy(), outcome, message)  # a time loop that hung may yet go on
+        return held if self._so_far is None else self._so_far.joined(held)
 
     def _record_so_far(self) -> xr.Dataset:
         return self._held(self._recorder, Outcome.INTERRUPTED, "")

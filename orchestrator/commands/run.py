@@ -17,8 +17,8 @@ from orchestrator.case.simulate import Execution
 from orchestrator.case.threads import default_threads
 from orchestrator.fmi.watchdog import Watchdog, leave
 from orchestrator.observers.checkpoint import Checkpoint
-from orchestrator.outcome import Outcome
 from orchestrator.report.library import require_library
+from orchestrator.results.folder import partial_folder
 from orchestrator.results.folder_lock import lock_folder
 from orchestrator.results.record_files import is_newer
 from orchestrator.results.result import Result
@@ -63,8 +63,11 @@ def run_case(
 
     def finish(result: Result, half: Result | None = None) -> int:
         status = conclude(case, request, folder, (completed(case, result), half), console, errors)
-        if status == Outcome.NOT_WRITTEN.status and is_newer(running, folder):
-            text = f"The record is kept in {running}: bladeloss report, bladeloss.load read it."
+        if all(is_newer(running, place) for place in (folder, partial_folder(folder))):
+            text = (
+                f"The record is kept in {running} until the next run to {folder}; what found no room at the "
+                "end is not in it. bladeloss report, bladeloss.load read it."
+            )
             errors.print(text, highlight=False, soft_wrap=True)
         else:
             remove(running)

@@ -175,7 +175,8 @@ def run(
             for start, end, length in course.parts(k):
                 if course.happens(start):
                     stepper.begin_anew(course.level)
-                stepper.cross(start, end, length, end != at or course.meets(k))
+                common = end != at or course.meets(k) or course.happens(end)
+                stepper.cross(start, end, length, common)
             watched = perf_counter()
             for observer in observers:
                 observer.record(k, time, stepper)

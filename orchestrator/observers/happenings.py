@@ -57,6 +57,8 @@ class Happenings(Observer):
         """When it was last seen to hold."""
         self._first = math.nan
         """Speed at the start."""
+        self._anew = False
+        """Whether a condition has brought something about in the last step."""
 
     @property
     def happened(self) -> list[Event]:
@@ -67,31 +69,45 @@ class Happenings(Observer):
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
         self._first = abs(self._system.speed)
-        self._look(0.0, 0.0)
+        self._look(0.0, 0.0, None)
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Look at the conditions after a step."""
-        self._look(start, end)
+        self._look(start, end, advance.evaluated)
 
-    def _look(self, start: float, time: float) -> None:
+    def record(self, step: int, time: float, stepper: Stepper) -> None:
+        """Let bearings with rates of their own begin anew behind what a condition has brought about."""
+        if self._anew:
+            stepper.begin_anew(stepper.level)
+        self._anew = False
+
+    def _look(self, start: float, time: float, evaluated: NDArray[np.bool_] | None) -> None:
         for index, event in enumerate(self._events):
             if math.isnan(self._happened[index]) and self._due(index, event, time):
                 self._happened[index] = time
-                self._bring_about(index, event, (start, time))
+                self._anew |= not event.timed
+                self._bring_about(index, event, (start, time), evaluated)
 
-    def _bring_about(self, index: int, event: Conditional, step: tuple[float, float]) -> None:
+    def _bring_about(
+        self,
+        index: int,
+        event: Conditional,
+        step: tuple[float, float],
+        evaluated: NDArray[np.bool_] | None,
+    ) -> None:
         """Bring it about at the end of a step, from its start to its end."""
         if isinstance(event, Switch):
             self._system.switch(event.input)
         elif isinstance(event, BladeLoss):
             self._system.switch(port.LOST, 2.0 ** self._numbers[index])
         elif isinstance(event, Change):
-            self._change(self._names.index(event.bearing), event, step)
+            number = self._names.index(event.bearing)
+            self._change(number, event, step, stands=evaluated is None or bool(evaluated[number]))
 
-    def _change(self, number: int, event: Change, step: tuple[float, float]) -> None:
+    def _change(self, number: int, event: Change, step: tuple[float, float], *, stands: bool) -> None:
         """Change a bearing's parameter; its law is the new one from this instant on, if it has no memory.
 
-        One with a memory goes on with its old law for a step.
+        One with a memory, or that stands behind this instant, goes on with its old law for a step.
         """
         unit, (start, end) = self._system.bearings[number], step
         (before,) = unit.get_real([event.variable])
@@ -99,7 +115,7 @@ class Happenings(Observer):
         unit.set_real([event.variable], np.array([after]))
         if self._bores is not None and event.variable in _OFFSETS:
             self._bores.move(number, _OFFSETS.index(event.variable), after - before)
-        if forgets(unit):  # it takes the step once more, to the same inputs
+        if stands and forgets(unit):  # it takes the step once more, to the same inputs
             unit.do_step(start, (end - start) or _SHORT)
             self._system.bearing_group.fetch([number])
 

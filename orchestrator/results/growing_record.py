@@ -104,12 +104,15 @@ class GrowingRecord:
         ------
         OSError
             When it cannot be written; the record is what it was.
+        GrowingRecordError
+            When rows that were written before are not there any more, or the data have other series.
         """
         counts = tuple(data.sizes.get(dimension, 0) for dimension in GROWING)
         rest = _without_rows(data)
         grown = GrowingRecord(self.folder, rest, (*self.blocks, counts) if any(counts) else self.blocks)
         if self.blocks and grown.layout != self.layout:
             raise GrowingRecordError(f"{self.folder / HEAD_FILE}: is of a record with other series")
+        self.check_size()
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self.folder / ROWS_FILE
         with path.open("r+b" if path.exists() else "w+b") as file:
@@ -119,7 +122,7 @@ class GrowingRecord:
             file.truncate()
             file.flush()
             os.fsync(file.fileno())
-        grown._write_head()
+        grown.write_head()
         return grown
 
     def dataset(self, rest: xr.Dataset | None = None) -> xr.Dataset:
@@ -157,7 +160,8 @@ class GrowingRecord:
         sizes = ((which, np.dtype(kind).itemsize * math.prod(shape)) for _, kind, shape, which in self.layout)
         return sum(rows[which] * size for which, size in sizes)
 
-    def _write_head(self) -> None:
+    def write_head(self) -> None:
+        """Put the head in its place, so that the record ends with the blocks of this one."""
         rest, path = self.rest, self.folder / HEAD_FILE
         words = {
             "attributes": rest.attrs,

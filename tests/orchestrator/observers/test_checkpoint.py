@@ -16,6 +16,7 @@ from orchestrator.case import record_so_far
 from orchestrator.case.checkpoint_folder import checkpoint_folder, discard
 from orchestrator.case.progress import Stage
 from orchestrator.case.simulate import Execution, simulate
+from orchestrator.errors import NotWrittenError
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
 from orchestrator.outcome import Outcome
@@ -126,6 +127,45 @@ def test_what_is_written_is_not_in_memory(toy, tmp_path, monkeypatch):
 
 
 @fault(
+    "machine",
+    "the record so far of a long run is removed while it goes on",
+    "exit 13, `not-written`; file and bytes that are gone",
+    guard="orchestrator.case.record_so_far:RecordSoFar",
+)
+def test_a_record_so_far_that_is_removed(toy, tmp_path, monkeypatch):
+    monkeypatch.setattr(record_so_far, "HELD", 0)
+    scenario = toy_scenario(tmp_path, event=BLADE, record={"interval": 1e-3}, end=0.05)
+
+    def remove(_, time):
+        if time > 0.03:
+            (tmp_path / "running" / ROWS_FILE).unlink(missing_ok=True)
+
+    with pytest.raises(NotWrittenError, match=r"record-rows\.bin: has 0 bytes of \d+"):
+        simulate(scenario, toy, remove, Execution(record=tmp_path / "running"))
+
+
+def test_a_run_that_hangs_between_evaluations(toy, tmp_path, monkeypatch):
+    """With many rates, some rows written, some complete, some waiting: the record is of the complete ones."""
+    monkeypatch.setattr(record_so_far, "HELD", 5_000)
+    scenario = toy_scenario(
+        tmp_path, event=BLADE, record={"interval": 1e-3}, end=0.05, coupling="multirate", tolerance=1e-4
+    )
+    execution, found = Execution(record=tmp_path / "running"), []
+
+    def hang(_, time):
+        if time > 0.0135 and not found:
+            assert open_growing(tmp_path / "running").counts == (10, 0)
+            found.append(execution.watchdog.partial("it hangs").record.load())
+
+    whole = simulate(scenario, toy, hang, execution).record
+    (record,) = found
+    assert record["time"].values[-1] == pytest.approx(0.012)  # two rows wait
+    for name in ("time", "force", "force_magnitude_max", "least_gap_min"):
+        same = whole[name].values[: record.sizes["time"]]
+        np.testing.assert_array_equal(record[name].values, same, err_msg=name)
+
+
+@fault(
     "process",
     "a checkpoint whose record so far is gone, cut off, or another run's",
     "exit 2; file, what it holds, what the checkpoint goes on from",
@@ -155,12 +195,12 @@ def test_a_record_so_far_that_does_not_fit_is_refused(harm, said, toy, tmp_path)
 
 def _other_series(folder):
     growing = open_growing(folder)
-    replace(growing, rest=growing.rest.drop_vars("moment"))._write_head()
+    replace(growing, rest=growing.rest.drop_vars("moment")).write_head()
 
 
 def _other_rows(folder):
     growing = open_growing(folder)
-    replace(growing, blocks=growing.blocks[1:])._write_head()
+    replace(growing, blocks=growing.blocks[1:]).write_head()
 
 
 @fault(

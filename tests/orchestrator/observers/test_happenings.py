@@ -10,6 +10,7 @@ from fmus import port
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
 from orchestrator.fmi.folder import build
+from orchestrator.master.coupling.base import Advance
 from orchestrator.observers.between import Bores
 from orchestrator.observers.checkpoint import Checkpoints, read
 from orchestrator.observers.happenings import Happenings
@@ -21,6 +22,7 @@ from rotor_fmu.train.file import load_train
 from tests.faults import fault
 
 FAN = Path(__file__).parents[2] / "examples" / "fan"
+STEP = Advance(1, np.zeros((1, 4)))
 
 
 class Machine:
@@ -71,7 +73,7 @@ def test_an_instant_is_met():
     machine = Machine()
     happenings = watched(machine, Trip(time=0.5), VacuumBreak(time=0.0))
     assert machine.switched == [port.VACUUM_BROKEN]
-    happenings.watch(0.4, 0.5, None)
+    happenings.watch(0.4, 0.5, STEP)
     assert machine.switched == [port.VACUUM_BROKEN, port.RELEASED]
     assert happenings.happened == []  # known beforehand
 
@@ -84,7 +86,7 @@ def test_a_vibration_must_last():
         time = 0.01 * k
         resting = 0.15 < time < 0.3
         machine.motion[0, 0] = 0.0 if resting or k % 3 else 2e-5
-        happenings.watch(time - 0.01, time, None)
+        happenings.watch(time - 0.01, time, STEP)
     (trip,) = happenings.happened
     assert trip.time == pytest.approx(0.5, abs=0.011)  # 0.3 s is the first time behind the rest
     again = watched(machine, Trip(vibration=1e-5, lasting=0.2))
@@ -95,11 +97,11 @@ def test_a_vibration_must_last():
 def test_gap_and_speed():
     machine = Machine()
     happenings = watched(machine, Trip(least_gap=1e-5), VacuumBreak(speed=50.0))
-    happenings.watch(0.0, 0.1, None)
+    happenings.watch(0.0, 0.1, STEP)
     assert machine.switched == []
     machine.responses[:] = 5e-6
     machine.speed = 40.0
-    happenings.watch(0.1, 0.2, None)
+    happenings.watch(0.1, 0.2, STEP)
     assert machine.switched == [port.RELEASED, port.VACUUM_BROKEN]
 
 
@@ -115,16 +117,32 @@ def test_a_blade_is_lost_and_a_bearing_sinks_by_condition():
     )  # fmt: skip
     happenings._bores = bores = Bores([1e-3], [0.5], np.zeros((1, 4)))
     machine.speed = 106.0
-    happenings.watch(0.0, 0.1, None)
+    happenings.watch(0.0, 0.1, STEP)
     assert machine.switched == [(port.LOST, 2.0)]
     machine.speed = 111.0
-    happenings.watch(0.1, 0.2, None)
+    happenings.watch(0.1, 0.2, STEP)
     assert machine.bearings[0].values == {"offset.y": pytest.approx(8e-5), "viscosity": 0.01}
     np.testing.assert_allclose(bores.offsets, [[0.0, -2e-5, 0.0, 0.0]])
     assert machine.bearings[0].steps == [(0.1, 0.1)] * 2 and machine.bearing_group.fetched == [0, 0]
     found = [(event.kind, event.time) for event in happenings.happened]
     assert found == [("blade-loss", 0.1), ("change", 0.2)]
     assert from_json(to_json(happenings.happened)) == tuple(happenings.happened)
+
+
+def test_a_change_where_the_bearing_stands_behind():
+    """With many rates: no step twice over; only behind a condition do all begin anew from here."""
+    machine, begun = Machine(), []
+    stepper = SimpleNamespace(level=2, begin_anew=begun.append)
+    timed = Change(bearing="front", parameter="viscosity", value=0.01, time=0.05)
+    happenings = watched(machine, timed, Change(bearing="front", parameter="offset.y", by=1e-6, speed=110.0))
+    happenings.watch(0.0, 0.1, STEP._replace(evaluated=np.array([False])))
+    happenings.record(1, 0.1, stepper)
+    assert machine.bearings[0].values["viscosity"] == 0.01 and not begun
+    machine.speed = 111.0
+    happenings.watch(0.1, 0.2, STEP._replace(evaluated=np.array([False])))
+    for step in (2, 3):
+        happenings.record(step, 0.1 * step, stepper)
+    assert begun == [2] and not machine.bearings[0].steps and not machine.bearing_group.fetched
 
 
 @fault(
@@ -197,7 +215,7 @@ def test_a_coast_down_goes_on_where_it_was_saved(fan, tmp_path):
     ]}  # fmt: skip
     scenario = load_scenario(FAN / "coast-down.toml", changes)
     saving = Execution(checkpoints=Checkpoints(tmp_path, 0.08, {}))
-    whole = simulate(scenario, fan, execution=saving).record
+    whole = simulate(scenario, fan, execution=saving).record.load()
     saved = read(tmp_path)
     assert saved.time == pytest.approx(0.08)
     assert [event.kind for event in from_attributes(whole.attrs).events] == ["trip", "blade-loss", "change"]
