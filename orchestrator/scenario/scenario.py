@@ -171,7 +171,8 @@ class Scenario(Model):
     tolerance : float or None
         Largest relative error of a step: of the defect, the wrench of a bearing less the one that the rotor
         was moved by, and of what comes of the step's length, against the larger of the mean static load and
-        the bearing's force (moments: times its width). A step that misses it is taken back and halved; the
+        the bearing's force (moments: times its width); with coupling multirate against the largest force of
+        the last revolutions, at least 0.3 of that load. A step that misses it is taken back and halved; the
         couplings newton and iqn-ils iterate the defect away as far, else to 1e-6. None: every step counts,
         but for multirate, which has 0.01 then. It belongs to the step and the coupling beside it: where an
         option replaces one of them, it must be given anew.

@@ -95,17 +95,28 @@ def _coefficient(value: float) -> float:
     return 0.06 * abs(value) + 0.06
 
 
-def lund_bores(row: Row) -> list[Entry]:
+def _below(most: float) -> Callable[[float], float]:
+    return lambda value: min(most, _coefficient(value))
+
+
+def _of_the_largest(row: Row, stiffness: float, damping: float) -> dict[str, Callable[[float], float]]:
+    """Bounds as shares of the largest entry of K and of B, at most `_coefficient`."""
+    bounds: dict[str, Callable[[float], float]] = {}
+    for keys, share in ((KEYS[:4], stiffness), (KEYS[4:], damping)):
+        largest = max(abs(float(row[key])) for key in keys if row.get(key))
+        bounds |= dict.fromkeys(keys, _below(share * largest))
+    return bounds
+
+
+def lund_bores(row: Row, **grid: int) -> list[Entry]:
     """Two grooves of 20 deg, and a lemon bore with them."""
     lemon, fine = row["bearing"] == "lemon", row["S"] == "0.12"
     bore = cut(lobes(2, 0.5) if lemon else lobes(1, 0.0), 20.0)
-    grid = {"columns": 192 if fine else 96, "rows": 16 if fine else 8}
+    grid = grid or {"columns": 192 if fine else 96, "rows": 16 if fine else 8}
     p = plain(float(row["B_over_D"]), bore=bore, boundary="reynolds", **grid)
     here = told(carried(make_film("v1", p), (0.0, -load_of(p, float(row["S"]))), 1.0), p)
-    bounds = {"eps": _fixed(0.01), "phi_deg": _fixed(2.5 if lemon else 0.5)} | dict.fromkeys(
-        KEYS, _coefficient
-    )
-    return compared(row, here, bounds)
+    bounds = {"eps": _fixed(0.0011), "phi_deg": _fixed(0.085)}
+    return compared(row, here, bounds | _of_the_largest(row, 0.0075, 0.01))
 
 
 def lund_axial(row: Row) -> list[Entry]:
@@ -113,10 +124,8 @@ def lund_axial(row: Row) -> list[Entry]:
     fine = float(row["eps"]) > 0.8
     p = plain(0.5, bore=cut(lobes(1, 0.0), 20.0), boundary="reynolds", columns=192 if fine else 96, rows=12)
     here = told(at_eccentricity(make_film("v1", p), float(row["eps"]), float(row["S"])), p)
-    k, b = (max(abs(float(row[key])) for key in keys) for keys in (KEYS[:4], KEYS[4:]))
-    bounds = {"S": _share(0.006), "phi_deg": _fixed(0.5)}
-    bounds |= dict.fromkeys(KEYS[:4], _fixed(0.008 * k)) | dict.fromkeys(KEYS[4:], _fixed(0.01 * b))
-    return compared(row, here, bounds)
+    bounds = {"S": _share(0.006), "phi_deg": _fixed(0.045)}
+    return compared(row, here, bounds | _of_the_largest(row, 0.0055, 0.0065))
 
 
 def someya_fixed(row: Row) -> list[Entry]:
@@ -127,9 +136,8 @@ def someya_fixed(row: Row) -> list[Entry]:
     p = plain(float(row["B_over_D"]), bore=bore, boundary="reynolds", **grid)
     here = told(carried(make_film("v1", p), (0.0, -load_of(p, inverse)), 1.0), p)
     here["eps"] /= 1.0 - preload
-    bounds = {"eps": _fixed(0.01 / (1.0 - preload)), "phi_deg": _fixed(0.5)} | dict.fromkeys(
-        KEYS, _coefficient
-    )
+    eps, angle = (0.02, 0.15) if preload else (0.0014, 0.5)
+    bounds = {"eps": _fixed(eps), "phi_deg": _fixed(angle)} | dict.fromkeys(KEYS, _coefficient)
     return compared(row, here, bounds)
 
 
@@ -147,8 +155,8 @@ def someya_pads(row: Row) -> list[Entry]:
     here = told(
         Carried(np.array([0.0, -load]), 1.0, np.array([0.0, -float(row["eps"])]) * p.clearance, found), p
     )
-    bounds = {"S": _share(0.05)} | dict.fromkeys(("Kxx", "Kyy", "Bxx", "Byy"), _coefficient)
-    return compared(row, here, bounds)
+    bounds = {"S": _share(0.047), "Kxx": _share(0.05), "Kyy": _share(0.05)}
+    return compared(row, here, bounds | dict.fromkeys(("Bxx", "Byy"), _share(0.036)))
 
 
 def butenschoen(row: Row) -> list[Entry]:
@@ -221,7 +229,9 @@ _GROOVES = (
     "the two books contradict each other here: with grooves twice as wide Lund and Thomsen have the film's"
 )
 _LOBES = "finite differences give the film's, `test_two_lobes_of_another_solution`"
-_PADS = "finite differences give the film's, `test_loads_on_pads_are_those_of_another_solution`"
+_PADS = "finite differences give the film's load, `test_loads_on_pads_are_those_of_another_solution`"
+_ON = _PADS + "; Kyy is next to nothing at this very place and 2 to 6 a ten-thousandth of C beside it"
+_ALL = ("S", "Kxx", "Kyy", "Bxx", "Byy")
 _GROOVED, _LOBED = "two-groove 0.5 ", "two-lobe 0.5 "
 #: Entries of rows beyond the agreement, and why.
 NAMED: dict[str, tuple[tuple[str, ...], str]] = {
@@ -232,19 +242,30 @@ NAMED: dict[str, tuple[tuple[str, ...], str]] = {
     _GROOVED + "0.0926": (("Bxy", "Byx", "Byy"), _GROOVES),
     _LOBED + "0.993": (("eps", "phi_deg", "Kxy", "Kyy", "Bxx"), _LOBES),
     _LOBED + "0.105": (("phi_deg", "Kxx", "Byy"), _LOBES),
-    "tilting4-between 0.5 5.76": (("S", "Bxx", "Byy"), _PADS),
-    "tilting4-on 0.5 1.42": (("S", "Kxx", "Bxx", "Byy"), _PADS),
-    "tilting4-on 0.5 0.507": (("S", "Byy"), _PADS),
+    "tilting4-between 0.5 5.76": (_ALL, _PADS),
+    "tilting4-on 0.5 1.42": (_ALL, _ON),
+    "tilting4-on 0.5 0.507": (_ALL, _ON),
 }
+#: Entries that rounding decides: next to nothing at the place, hundreds of times as much beside it.
+INDEFINITE = {("tilting4-on 0.5 1.42", "Kyy"), ("tilting4-on 0.5 0.507", "Kyy")}
 _HEAD = """\
 # Published bearings, row by row
 
 Made by `python -m tests.bearing_fmu.published_rows`; `test_published_rows.py` holds what it says. Each cell
-is the film's figure and, in brackets, the published one; bold is what is further apart than the agreement
-that the table states of a converged solver (Lund and Thomsen 1978: bores 6 % + 0.06 of a coefficient, 0.01 of
-eps, 0.5 deg, lemon 2.5 deg; B/D 0.5: S 0.6 %, K 0.8 % and B 1 % of the largest entry; Butenschoen 1976: 1 %).
-Someya 1989 states none and has that of the bores, his pads 5 % of S. S is eta N B D (R/C)^2/W, x along the
-load; eps of lemon bores is over the clearance of a lobe, of Someya's lobes over the least one.
+is the film's figure and, in brackets, the published one; bold is what is further apart than a bound of its
+source, about a quarter above what is found in the other rows:
+
+| source | eps, phi, S | coefficients |
+|---|---|---|
+| Lund and Thomsen, bores | eps 0.0011, phi 0.085 deg | 0.75 % of the largest of K, 1 % of B |
+| Lund and Thomsen, B/D 0.5 | S 0.6 %, phi 0.045 deg | 0.55 % of the largest of K, 0.65 % of B |
+| Someya, two grooves; lobes | eps 0.0014, phi 0.5 deg; 0.02, 0.15 deg | 6 % + 0.06 |
+| Someya, pads | S 4.7 % | K 5 %, B 3.6 % |
+| Butenschoen | 1 % | |
+
+No coefficient of Lund and Thomsen may be further off than 6 % + 0.06, the agreement that they state of a
+converged solver; Someya states none. S is eta N B D (R/C)^2/W, x along the load; eps of lemon bores is over
+the clearance of a lobe, of Someya's lobes over the least one.
 """
 
 

@@ -41,6 +41,16 @@ def test_loads_on_pads_are_those_of_another_solution(first, pads, eps, inverse, 
     assert (abs(other / load_of(p, inverse) - 1.0) < 0.015) == met
 
 
+@pytest.mark.parametrize("eps", [0.2, 0.4])
+def test_beside_a_load_on_a_pad_the_stiffness_across_is_another(eps):
+    """The pads at its sides carry nothing there and take hold beside it: no Kyy to hold to a table."""
+    bore = to_text(tilting(4, 80.0 * DEG, 0.0, first=45.0 * DEG))
+    bearing = film(bore=bore, columns=96, rows=12, whirl=1.0)
+    here, near = (at_rest(bearing, [beside, -eps, 0.0, 0.0])[0] for beside in (0.0, 1e-4))
+    assert near[8] > 50.0 * abs(here[8])
+    assert near[1] == pytest.approx(here[1], rel=1e-4)
+
+
 def carries(bearing, sommerfeld, angle):
     """Position over the clearance, attitude in degrees and response under a load in a direction."""
     p = bearing.parameters
@@ -97,7 +107,7 @@ def behind_its_fold(place, whirl=0.0):
 
 
 def test_of_a_pad_that_counts_in_part_all_counts_in_part():
-    """Friction and oil as the force; and nothing of it where the pad has lost its hold."""
+    """Friction, oil and peak as the force."""
     shares = []
     for e in np.linspace(0.5, 0.6, 11):
         out, alone, *_ = behind_its_fold([0.0, -e, 0.0, 0.0])
@@ -109,6 +119,17 @@ def test_of_a_pad_that_counts_in_part_all_counts_in_part():
             assert told["friction_power"] == pytest.approx(share * alone.friction_power, rel=1e-3)
             assert told["p_max"] == pytest.approx(share * alone.p_max, rel=1e-3)
     assert len(shares) >= 2
+
+
+def test_a_pad_that_has_lost_its_hold_gives_nothing():
+    """Least share before, none behind; oil leaves it no more, and oil still fills its gap and rubs."""
+    held, last, lost = (behind_its_fold([0.0, -e, 0.0, 0.0])[0] for e in (0.5, 0.6, 0.606))
+    flow = [v.name for v in port.BEARING_OUTPUTS].index("oil_flow")
+    for i in (1, flow):
+        assert abs(last[i]) < 5e-3 * abs(held[i])
+    assert np.hypot(*lost[:2]) < 1e-12 * np.hypot(*held[:2])
+    assert 0.0 <= lost[flow] < 1e-4 * held[flow]
+    assert np.abs(lost[8:24]).max() < 1e-9 * np.abs(held[8:24]).max()
 
 
 def test_a_whirl_sees_how_the_share_of_a_pad_changes():
