@@ -74,7 +74,8 @@ class BearingResponse:
     wrench : ndarray, shape (4,)
         F = (Fx, Fy, Mx, My) on the journal, film and contact.
     stiffness, damping : ndarray, shape (4, 4)
-        K = -dF/dq and C = -dF/dv.
+        K = -dF/dq and C = -dF/dv at what the film remembers; on a soft layer K counts besides what the wall
+        goes on to give way, an extrapolation in time, except in balance.
     h_min, h_min_centre, h_min_z : float
         Least gap over the film and at the mid-plane, and axial position of the least gap, m.
     p_max : float

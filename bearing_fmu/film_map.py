@@ -21,6 +21,7 @@ from bearing_fmu.films.jfo.workspace import JfoFilm
 from bearing_fmu.films.short.short import effective_state
 from bearing_fmu.films.tilted.layered import CLUSTERING as ON_LAYER
 from bearing_fmu.films.tilted.layered import LayeredFilm
+from bearing_fmu.films.tilted.on_layer import FilmOnLayer
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG
 from bearing_fmu.kernels.axial import CLUSTERING, axial_basis
@@ -120,6 +121,8 @@ def film_map(
     if isinstance(film, ConservingFilm):
         _lead(film, inputs, step)
         return _conserving(film, positions[-1], angle, place)
+    if isinstance(film, FilmOnLayer):
+        _lead(film, inputs, step)
     return _solved(film, inputs[-1], film.offset, angle, place)
 
 
@@ -131,11 +134,12 @@ def _lead(film: Film, inputs: Floats, step: float) -> None:
 
 
 def _solved(film: Film, inputs: Floats, offset: Floats, angle: Floats, place: Floats) -> FilmMap | None:
-    """The map of a film without memory."""
+    """The map of a film without memory, or of one on a layer that was led here, in the space it left."""
     speed, p = float(inputs[16]), film.parameters
     space, data = film.take()
     try:
-        status = film.solver.kernel(inputs, offset, np.empty(OUTPUTS), *data)
+        led = isinstance(film, FilmOnLayer)
+        status = 0 if led else film.solver.kernel(inputs, offset, np.empty(OUTPUTS), *data)
         if status:
             raise film.failure(status, inputs, offset)
         constants, _, _, solved, work = data

@@ -21,8 +21,12 @@ from typing import Any, TypeVar
 
 from numba import config, njit
 
-from bearing_fmu.kernels.inlined import PartCompiler, read_as_parts
 from bearing_fmu.kernels.kept import KeptFile
+
+try:
+    from bearing_fmu.kernels.inlined import PARTS, read_as_parts
+except (ImportError, AttributeError):  # a numba with other inner parts: every kernel gets its machine code
+    PARTS = {}
 
 # Kernels read records by the names of their fields, which they can do compiled only.
 config.DISABLE_JIT = 0  # type: ignore[attr-defined]
@@ -89,7 +93,7 @@ def inner_kernel(function: _Function) -> _Function:
     the cache, then run the same code, and give the same numbers to the bit.
     """
     alone = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
-    return _compile(function, alone | {"pipeline_class": PartCompiler})
+    return _compile(function, alone | PARTS)
 
 
 def stage(function: _Function) -> _Function:
@@ -110,7 +114,7 @@ def _compile(function: _Function, more: dict[str, Any]) -> _Function:
     cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, _stamp(function))
     # numba's own key holds what a function draws on, which is another object in every process
     cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
-    if more.get("pipeline_class") is PartCompiler:
+    if PARTS and PARTS.items() <= more.items():
         read_as_parts(cache)
     save = cache.save_overload
 

@@ -10,6 +10,9 @@ from bearing_fmu.kernels.compiled import inner_kernel
 
 @inner_kernel
 def copy(source: NDArray[np.float64], target: NDArray[np.float64]) -> None:
-    """Copy the first numbers of one array into all of another, both of one dimension."""
+    """Copy the first numbers of one array into all of another, both of one dimension.
+
+    Nobody checks lengths: the source must be at least as long as the target.
+    """
     for i in range(target.shape[0]):
         target[i] = source[i]

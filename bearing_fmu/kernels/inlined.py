@@ -1,7 +1,8 @@
 """Kernels that are only parts of others: compiled to code that goes into those, not to code of their own.
 
 numba makes every function ready to be called, which takes as long as all its optimisation. A function that is
-always inlined is called by nobody, and its machine code is not made here.
+always inlined is called by nobody, and its machine code is not made here.  That takes inner parts of numba;
+where another numba lacks one, the import fails, and `compiled` does without.
 """
 
 from __future__ import annotations
@@ -9,8 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from numba.core.caching import CompileResultCacheImpl
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+
+_TAKEN = (
+    (JITCodeLibrary, ("_finalize_final_module", "_finalize_dynamic_globals", "_verify_declare_only_symbols")),
+    (JITCodeLibrary, ("_ensure_finalized", "get_pointer_to_function", "enable_object_caching")),
+    (JITCodeLibrary, ("serialize_using_bitcode", "serialize_using_object_code", "codegen")),
+    (Compiler, ("compile_extra",)),
+    (CompileResultCacheImpl, ("rebuild",)),
+)
+for _owner, _names in _TAKEN:
+    for _name in _names:
+        getattr(_owner, _name)  # AttributeError where it is missing
 
 
 class _Parts:
@@ -72,3 +85,7 @@ def read_as_parts(cache: Any) -> None:
             codegen._library_class = usual
 
     cache._impl.rebuild = rebuild_part
+
+
+PARTS: dict[str, Any] = {"pipeline_class": PartCompiler}
+"""What makes numba compile a part."""

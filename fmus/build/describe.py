@@ -23,7 +23,8 @@ _PAGE = """<!DOCTYPE html>
 <h1>{name}</h1>
 <p>{description} Version {version}.</p>
 <p>Frame: fixed, z along the shaft, y up; SI units and rad. q = (x, y, tilt_x, tilt_y), v = dq/dt.
-The affine law of a bearing is F0 - K q - C v with K = -dF/dq, C = -dF/dv, F0 = F + K q + C v.</p>
+The affine law of a bearing is F0 - K q - C v with K = -dF/dq, C = -dF/dv, F0 = F + K q + C v;
+of a film on a soft layer K counts besides what the wall goes on to give way over the next step.</p>
 <p>The unit needs Python 3.11 or newer with numpy, scipy and numba in the process that runs it.
 A refused step (fmi2Discard) gives its reason in the log.</p>
 <table border="1"><tr><th>Variable</th><th>Causality</th><th>Unit</th><th>Start</th><th>Meaning</th></tr>

@@ -3,10 +3,10 @@
 ``memoryless``: its outputs after a step follow from the inputs at its end alone.  Such a unit needs no
 saved state to take a step back: the next step on other inputs overwrites all.
 
-``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word, and no
-pad tilts in its parameter ``bore``.
+``memoryless_with_guembel``, and so on: the same, while its parameter ``film.boundary`` is that word, no pad
+tilts in its parameter ``bore``, and its parameter ``layer.thickness`` is 0.
 
-Neither holds while its parameter ``film.temperature`` is ``followed``, or ``layer.thickness`` is above 0.
+Neither holds while its parameter ``film.temperature`` is ``followed``.
 
 ``isotropic``: no direction is unlike another: turned inputs give turned outputs, as of a plain bearing.
 

@@ -14,7 +14,9 @@ The affine law: a bearing returns, besides the wrench ``F(q, v)`` on the rotor, 
     K = -dF/dq,   C = -dF/dv,   F0 = F + K q + C v
 
 so that ``F0 - K q' - C v'`` is the wrench near the state; q and v are those of the journal in its housing,
-less the housing's own.  The rotor integrates that law; see the README of this folder.
+less the housing's own.  The rotor integrates that law; see the README of this folder.  Of a film with memory
+K and C are taken at what it remembers; on a soft layer K counts besides what the wall goes on to give way
+over the next step, an extrapolation in time.
 """
 
 from __future__ import annotations

@@ -91,11 +91,11 @@ def forgets(unit: Unit) -> bool:
     """Whether a unit promises to be memoryless, with the parameters that it has."""
     if TEMPERATURE in unit.file.variables and unit.get_string(TEMPERATURE) == FOLLOWED:
         return False
-    if LAYER in unit.file.variables and unit.get_real([LAYER])[0] > 0.0:
-        return False
     promises = unit.file.promises
     if MEMORYLESS in promises or not any(word.startswith(MEMORYLESS) for word in promises):
         return MEMORYLESS in promises
+    if LAYER in unit.file.variables and unit.get_real([LAYER])[0] > 0.0:
+        return False
     tilts = port.pads_in(unit.get_string(BORE)) > 0
     return not tilts and memoryless_with(unit.get_string(BOUNDARY)) in promises
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from bearing_fmu.film_map import film_map
+from bearing_fmu.outputs import INPUTS, OUT_GAP
 from fmus.port.bore import Arc, to_text
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, v
 
@@ -44,6 +45,26 @@ def test_a_map_integrates_to_the_force_of_its_film(depth, parameters, place):
     assert found.pressure.max() == pytest.approx(response.p_max, rel=5e-3)
     assert np.nanmin(found.gap) == pytest.approx(response.h_min, rel=1e-3)
     assert (found.pressure >= 0.0).all()
+
+
+def test_a_film_on_a_layer_is_led_along_the_samples():
+    """A journal that approaches the wall: what the wall takes up lowers the pressure."""
+    bearing = replace(LINED, columns=48, rows=8)
+    units, step, film = lever(bearing), 5e-5, v("v1", bearing)
+    rate = np.tile(np.array([0.0, -0.5, 0.0, 0.0]) * units * SPEED, (6, 1))
+    q = np.array([0.2, -0.95, 0.02, 0.0]) * units + rate * step * np.arange(-5, 1)[:, None]
+    found = film_map("v1", bearing.values(), q, rate, SPEED, columns=1441, rows=81, step=step)
+    state = film.rest()
+    for k in range(len(q)):
+        inputs = np.zeros(INPUTS)
+        inputs[:4], inputs[4:8], inputs[16] = q[k], rate[k], SPEED
+        out, state = film.evaluate(state, inputs, step if k else 0.0)
+    peak, wanted = out[OUT_GAP + 3], out[:2] - out[OUT_GAP + 5 : OUT_GAP + 7]
+    inward = -np.array([np.cos(found.angle), np.sin(found.angle)])
+    force = np.trapezoid(np.trapezoid(found.pressure, found.z, axis=0) * inward, found.angle) * bearing.radius
+    np.testing.assert_allclose(force, wanted, atol=1e-2 * np.hypot(*wanted))
+    assert found.pressure.max() == pytest.approx(peak, rel=1e-2)
+    assert abs(film.respond(q[-1], rate[-1], SPEED).p_max / peak - 1.0) > 0.1  # in balance it is another one
 
 
 def test_a_table_is_drawn_as_the_film_that_it_looks_up():

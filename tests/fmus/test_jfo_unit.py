@@ -64,16 +64,18 @@ def test_it_is_no_trifle(units):
 
 
 @pytest.mark.parametrize(
-    ("values", "forgotten"),
+    ("depth", "values", "forgotten"),
     [
-        ({"film.boundary": "guembel"}, True),
-        ({"film.boundary": "reynolds"}, True),
-        ({"film.boundary": "jfo"}, False),
-        ({"layer.thickness": 5e-3}, False),
+        ("v1", {"film.boundary": "guembel"}, True),
+        ("v1", {"film.boundary": "reynolds"}, True),
+        ("v1", {"film.boundary": "jfo"}, False),
+        ("v1", {"layer.thickness": 5e-3}, False),
+        ("v3", {"layer.thickness": 5e-3}, True),  # stays rigid
+        ("v3", {"film.temperature": "followed"}, False),
     ],
 )
-def test_the_master_marks_units_that_remember_only(built, tmp_path, values, forgotten):
-    file = FmuFile(built["bearing_v1.fmu"], tmp_path)
+def test_the_master_marks_units_that_remember_only(built, tmp_path, depth, values, forgotten):
+    file = FmuFile(built[f"bearing_{depth}.fmu"], tmp_path)
     unit = Unit(file, "bearing")
     unit.set_parameters(values)
     assert forgets(unit) is forgotten

@@ -43,6 +43,11 @@ SOLVER = Solver(
 def _parameters(values: Mapping[str, Value]) -> BearingParameters:
     """The bearing; ValueError for what would need another table at each pressure or speed."""
     parameters = BearingParameters.of(values)
+    if parameters.boundary not in SOLVER.boundaries:
+        raise ValueError(
+            f"bearing parameter boundary = {parameters.boundary!r}: the table film has "
+            f"{' and '.join(SOLVER.boundaries)} only; use depth v1"
+        )
     if parameters.arcs:
         raise ValueError(
             "bearing parameter bore: the table film knows the plain bore only; use depth v2, which solves "
@@ -53,11 +58,19 @@ def _parameters(values: Mapping[str, Value]) -> BearingParameters:
             f"bearing parameter ambient_pressure = {parameters.ambient_pressure!r}: the table film knows 0 "
             "only; use depth v2"
         )
+    if parameters.has_layer:
+        raise ValueError(
+            f"bearing parameter layer_thickness = {parameters.layer_thickness!r}: the table film knows rigid "
+            "bores only; use depth v2"
+        )
     if parameters.temperature == "followed":
-        raise ValueError("bearing parameter temperature = 'followed': the table film holds its temperature")
+        raise ValueError(
+            "bearing parameter temperature = 'followed': the table film holds its temperature; use depth v2"
+        )
     if parameters.is_turbulent:
         raise ValueError(
-            f"bearing parameter turbulence = {parameters.turbulence!r}: the table film is laminar"
+            f"bearing parameter turbulence = {parameters.turbulence!r}: the table film is laminar; use "
+            "depth v2"
         )
     return parameters
 

@@ -18,8 +18,10 @@ from bearing_fmu.parameters import BearingParameters
 
 _DIGEST = hashlib.sha256().digest_size
 _PACKAGE = Path(__file__).parents[2]
-_DRAWN_ON = ("films/aligned", "films/tilted", "films/table", "kernels", "bore", ".")
+_DRAWN_ON = ("films", "films/aligned", "films/tilted", "films/table", "kernels", "bore", ".")
 """Folders that a table follows from, the same in a unit as in the program."""
+_STEMS = ("evaluate", "film", "outputs", "parameters", "result", "scales")
+"""And of the last of them these files alone."""
 
 
 def folder() -> Path:
@@ -53,7 +55,7 @@ def _sources() -> str:
     digest = hashlib.sha256()
     for folder in _DRAWN_ON:
         for path in sorted((_PACKAGE / folder).glob("*.py")):
-            if folder != "." or path.stem in ("evaluate", "outputs", "scales"):
+            if folder != "." or path.stem in _STEMS:
                 digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 

@@ -1,10 +1,10 @@
 """The film of the aligned journal in a plain bore, looked up.
 
 With lengths over the clearance the pressure follows from the position q and the drive ``D = 2 v - w x q``,
-w the speed, and is proportional to D (Guembel's condition, no ambient pressure).  So the force is |D| times a
-function of three numbers, of which a plain bore drops one; what tends to infinity or zero towards the wall is
-divided out.  With e = |q|, T the open gap at the narrowest place and r = sqrt(T (2 - T)), which is
-sqrt(1 - e^2) of smooth surfaces,
+w the speed, and is proportional to D (Guembel's condition or Reynolds', no ambient pressure).  So the force
+is |D| times a function of three numbers, of which a plain bore drops one; what tends to infinity or zero
+towards the wall is divided out.  With e = |q|, T the open gap at the narrowest place and
+r = sqrt(T (2 - T)), which is sqrt(1 - e^2) of smooth surfaces,
 
     D' = D along q, r D across it        a = e / (1 + r), psi = angle of q over that of D'
     F  = -S (D' turned by t) / (r^3 (k + r^2)),   k = (b/d)^2,   log S and t of a table over (a, psi)

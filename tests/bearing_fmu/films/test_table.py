@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
 from time import perf_counter
 
@@ -152,7 +153,10 @@ def test_an_evaluation_takes_a_microsecond_at_most():
     ("changes", "words"),
     [
         ({"ambient_pressure": 1e5}, "ambient_pressure = 100000.0: the table film knows 0 only"),
-        ({"turbulence": "constantinescu"}, "turbulence = 'constantinescu': the table film is laminar"),
+        (
+            {"turbulence": "constantinescu"},
+            "turbulence = 'constantinescu': the table film is laminar; use depth v2",
+        ),
         (
             {"bore": to_text(grooved(lobes(2, 0.5), [(0.0, 0.3)]))},
             "the table film knows the plain bore only; use depth v2",
@@ -160,13 +164,17 @@ def test_an_evaluation_takes_a_microsecond_at_most():
         ({"bore": to_text(tilting(4, 1.2, 0.0))}, "the table film knows the plain bore only; use depth v2"),
         (
             {"boundary": "jfo", "ambient_pressure": 1e5},
-            "use depth v2|the table film has guembel and reynolds",
+            "boundary = 'jfo': the table film has guembel and reynolds only; use depth v1",
+        ),
+        (
+            {"layer_thickness": 5e-3},
+            "layer_thickness = 0.005: the table film knows rigid bores only; use depth v2",
         ),
     ],
 )
 @fault(
     "film",
-    "a bearing that the table cannot stand for: ambient pressure, turbulence, grooves, a film with memory",
+    "a bearing that the table cannot stand for: ambient pressure, turbulence, grooves, a layer, jfo",
     "ValueError with key and value; runs end before they begin",
     guard="bearing_fmu.films.table.depth:_parameters",
 )
@@ -198,6 +206,27 @@ def test_a_kept_table_is_read_whole_or_not_at_all(tmp_path, monkeypatch):
         assert store._of_unit.__wrapped__(unit)[1]
     monkeypatch.setenv("XDG_CACHE_HOME", str(path))
     assert store._of_unit.__wrapped__(unit)[1]
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "films/corners.py",
+        "films/turbulence.py",
+        "films/tilted/rupture.py",
+        "result.py",
+        "parameters.py",
+        "film.py",
+    ],
+)
+def test_a_table_is_built_anew_when_what_it_follows_from_changes(source, tmp_path, monkeypatch):
+    package = tmp_path / "bearing_fmu"
+    shutil.copytree(store._PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(store, "_PACKAGE", package)
+    before = store._sources.__wrapped__()
+    path = package / source
+    path.write_text(path.read_text(encoding="utf-8") + "# changed\n", encoding="utf-8")
+    assert store._sources.__wrapped__() != before
 
 
 def test_a_table_is_told_of_once(monkeypatch, tmp_path):

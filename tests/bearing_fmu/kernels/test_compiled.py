@@ -146,3 +146,23 @@ def test_a_variant_is_renewed_with_the_kernels_that_it_is_given(folder):
     assert compute(folder, around).stdout == "4.0\n"
     (folder / "kernels.py").write_text(MODULE.replace("2.0 * x", "4.0 * x"))
     assert compute(folder, around).stdout == "7.0\n"
+
+
+def test_a_numba_with_other_inner_parts(tmp_path):
+    """Inner kernels are then compiled as any other."""
+    code = """
+from numba.core.codegen import CPUCodeLibrary as library
+kept = library._verify_declare_only_symbols
+del library._verify_declare_only_symbols
+from bearing_fmu.kernels import compiled
+library._verify_declare_only_symbols = kept
+from inner import thrice
+print(compiled.PARTS, thrice(1.5))
+"""
+    (tmp_path / "inner.py").write_text(
+        "from bearing_fmu.kernels.compiled import inner_kernel, kernel\n\n"
+        "@inner_kernel\ndef twice(x):\n    return 2.0 * x\n\n"
+        "@kernel\ndef thrice(x):\n    return x + twice(x)\n"
+    )
+    done = compute(tmp_path, code)
+    assert (done.returncode, done.stdout) == (0, "{} 4.5\n"), done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ FILMS = [
     pytest.param("tilting", {"depth": "v2"}, id="tilting pads"),
     pytest.param("lemon", {"depth": "v1", "boundary": "jfo"}, id="jfo"),
     pytest.param("oil", {"depth": "v3", "temperature": "followed"}, id="oil that warms"),
+    pytest.param("small", {"depth": "v1"}, id="soft layer, in contact"),
 ]
 
 
@@ -38,19 +40,34 @@ def killed(stage, simulated):
         raise Killed
 
 
+def lined(folder):
+    """The small train with white metal on its shells, which it touches when a heavy blade breaks off."""
+    base = files("rotor_fmu") / "data" / "small" / "train.toml"
+    layer = 'layer_thickness = "2 mm"\nlayer_modulus = 53e9\n'
+    path = folder / "lined.toml"
+    path.write_text(f"base = '{base}'\nname = \"lined\"\n\n[every_bearing]\n{layer}")
+    return {"train": str(path), "event": SHORT["event"] | {"unbalance": 12.0}}
+
+
 def scenario_of(example, film, **changes):
     own = {key: film[key] for key in ("boundary", "temperature") if key in film}
     given, settings = {key: film[key] for key in film if key not in own}, SHORT["film"] | own
-    return load_scenario(str(EXAMPLES / example / "loss.toml"), SHORT | given | {"film": settings} | changes)
+    source = example if example == "small" else str(EXAMPLES / example / "loss.toml")
+    return load_scenario(source, SHORT | given | {"film": settings} | changes)
 
 
 @pytest.mark.parametrize(("example", "film"), FILMS)
 def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
+    if example == "small":
+        film = film | lined(tmp_path)
     scenario = scenario_of(example, film, tolerance=1e-3)  # so steps are taken back
     build(tmp_path, [train_of(scenario)], [film["depth"]])
     whole = simulate(scenario, tmp_path, None, Execution(threads=1))
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
+    if example == "small":
+        assert whole.record["contact_force"].values.max() > 5e4
+        assert whole.record.attrs["rejected_steps"] > 0
     if film.get("boundary") == "jfo":
         full, fed = whole.record["full_film"].values, whole.record["oil_fed"].values
         assert 0.3 < full.min() < full.max() < 1.0 and np.ptp(full) > 1e-3
