@@ -108,7 +108,7 @@ def _add_told(one: Floats, grip: float, rubs: float, share: float, total: Floats
     for i in range(4):
         other, sign = (i + 1, -1.0) if i % 2 == 0 else (i - 1, 1.0)
         total[5 + i] += share * (one[5 + i] + sign * grip * one[5 + other])
-    total[9] += share * (one[9] + rubs * one[4])
+    total[9] += one[9] + share * rubs * one[4]  # oil in its gap is sheared whether it holds the pad or not
 
 
 @inner_kernel

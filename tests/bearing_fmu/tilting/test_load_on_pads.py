@@ -107,7 +107,7 @@ def behind_its_fold(place, whirl=0.0):
 
 
 def test_of_a_pad_that_counts_in_part_all_counts_in_part():
-    """Friction, oil and peak as the force."""
+    """Oil and peak as the force; its oil is sheared whole."""
     shares = []
     for e in np.linspace(0.5, 0.6, 11):
         out, alone, *_ = behind_its_fold([0.0, -e, 0.0, 0.0])
@@ -116,20 +116,23 @@ def test_of_a_pad_that_counts_in_part_all_counts_in_part():
             shares.append(share)
             told = dict(zip((v.name for v in port.BEARING_OUTPUTS), out, strict=False))
             assert told["oil_flow"] == pytest.approx(share * alone.oil_flow, rel=1e-3)
-            assert told["friction_power"] == pytest.approx(share * alone.friction_power, rel=1e-3)
+            assert told["friction_power"] == pytest.approx(alone.friction_power, rel=1e-3)
             assert told["p_max"] == pytest.approx(share * alone.p_max, rel=1e-3)
     assert len(shares) >= 2
 
 
-def test_a_pad_that_has_lost_its_hold_gives_nothing():
-    """Least share before, none behind; oil leaves it no more, and oil still fills its gap and rubs."""
+def test_a_pad_that_has_lost_its_hold_gives_nothing_but_friction():
+    """Force, stiffness and flow go to none where the share does; what is sheared goes on without a jump."""
     held, last, lost = (behind_its_fold([0.0, -e, 0.0, 0.0])[0] for e in (0.5, 0.6, 0.606))
-    flow = [v.name for v in port.BEARING_OUTPUTS].index("oil_flow")
+    names = [v.name for v in port.BEARING_OUTPUTS]
+    flow, rubs = names.index("oil_flow"), names.index("friction_power")
     for i in (1, flow):
         assert abs(last[i]) < 5e-3 * abs(held[i])
     assert np.hypot(*lost[:2]) < 1e-12 * np.hypot(*held[:2])
     assert 0.0 <= lost[flow] < 1e-4 * held[flow]
     assert np.abs(lost[8:24]).max() < 1e-9 * np.abs(held[8:24]).max()
+    assert last[rubs] == pytest.approx(lost[rubs], rel=0.01)
+    assert 0.9 * held[rubs] < lost[rubs] < held[rubs]
 
 
 def test_a_whirl_sees_how_the_share_of_a_pad_changes():
