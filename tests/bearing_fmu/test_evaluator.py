@@ -208,11 +208,6 @@ def test_same_bits_with_reynolds_condition():
     np.testing.assert_array_equal(respond(film, [0.5, 0.2, 0.1, 0.0]).wrench, expected)
 
 
-def arrays_in(part):
-    """How many arrays a tuple holds, at any depth."""
-    return sum(map(arrays_in, part)) if isinstance(part, tuple) else isinstance(part, np.ndarray)
-
-
 @pytest.mark.parametrize("depth", DEPTHS)
 def test_no_allocation(depth):
     film, inputs = make_film(depth, TURBINE), port_inputs((0.2, -0.9, 0.09, 0.02))
@@ -224,8 +219,7 @@ def test_no_allocation(depth):
         film.solve(inputs, offset, out)
     allocated = rtsys.get_allocation_stats().alloc - before
     nrt.memsys_disable_stats()
-    # numba wraps each array that enters from Python in one small header; nothing else may be allocated.
-    assert allocated == 50 * (3 + arrays_in(film.take()[1]))
+    assert allocated == 0  # not even the headers in which numba wraps arrays: kernels count no references
 
 
 @pytest.mark.parametrize("depth", DEPTHS)

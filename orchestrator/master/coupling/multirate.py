@@ -208,7 +208,7 @@ class Multirate:
         """Return how the bearings stand at the start of a step; one before that was not refused counts."""
         if self._next is not None:
             self._rates, self._next, self._rough = self._next, None, None
-        if self._rates is None:
+        if self._rates is None or (self._rates.stands > time + 1e-6 * step).any():  # of another system
             self._rates = Rates.anew(time, step, self._size(system, np.zeros(len(system.bearings)), 0.0))
             system.rotor_group.feed()
         here = np.abs(self._rates.stands - time) <= 1e-6 * step  # but for rounding
