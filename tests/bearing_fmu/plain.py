@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +46,23 @@ OPERATIONS = {
 }
 
 
+def _with_names(take):
+    """A work space, and what a kernel takes in it, with constants whose fields are attributes."""
+    space, (constants, *rest) = take()
+    return space, (constants.view(np.recarray), *rest)
+
+
+def told(film, inputs, step):
+    """Status and outputs of a film at rest, or at the end of the second of two steps of this length."""
+    out = np.full(58, np.nan)
+    if step is None:
+        return film.solve(inputs, np.zeros(4), out), out
+    later = inputs.copy()
+    later[:4] += step * inputs[4:8]
+    _, state = film.evaluate(film.rest(), inputs, step)
+    return 0, film.evaluate(state, later, step)[0][: len(out)]
+
+
 def main(states: Path, out: Path) -> None:
     """Evaluate the states of a JSON file, each with depth and parameters; write status and outputs."""
     compiled._compile = lambda function, _options: function
@@ -57,11 +75,8 @@ def main(states: Path, out: Path) -> None:
     np.seterr(all="ignore")  # as compiled: what is not finite is found at the end
     for case in json.loads(states.read_text()):
         film = make_film(case["depth"], BearingParameters(**case["parameters"]))
-        _, (constants, *rest) = film.take()
-        outputs = np.full(58, np.nan)
-        status = film._kernel(
-            np.array(case["inputs"]), np.zeros(4), outputs, constants.view(np.recarray), *rest
-        )
+        film.take = partial(_with_names, film.take)
+        status, outputs = told(film, np.array(case["inputs"]), case["step"])
         results.append([float(status), *outputs])
     np.save(out, np.array(results))
 
