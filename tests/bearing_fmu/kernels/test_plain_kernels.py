@@ -40,7 +40,11 @@ STATES = {
         (0.1, 0.0, 0.0, 0.0),
     ),
     "on a layer": (SMALL | ROUGH | LAYER, (0.2, -0.9, 0.09, 0.02), (0.0, 0.1, 0.0, 0.1)),
-    "mass-conserving": (SMALL | {"boundary": "jfo", "ambient_pressure": 3e4}, (0.5, -0.5, 0.1, 0.02), (0.1, 0.1, 0.0, 0.0)),
+    "mass-conserving": (
+        SMALL | {"boundary": "jfo", "ambient_pressure": 3e4},
+        (0.5, -0.5, 0.1, 0.02),
+        (0.1, 0.1, 0.0, 0.0),
+    ),
 }
 STEP = 0.05
 """In s, of the films that remember."""
