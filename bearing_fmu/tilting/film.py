@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.pads import Pads
 from bearing_fmu.film import Film, Solver
+from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.outputs import OUT_F0, OUT_GAP, OUT_K, OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.status import OK
@@ -26,7 +27,7 @@ _DETAILS = {v.name: OUTPUTS + i for i, v in enumerate(port.BEARING_DETAILS)}
 _FIRST_TILT = _DETAILS["pad_tilt[1]"]
 
 
-class TiltingFilm(Film):
+class TiltingFilm(FilmWithMemory):
     """Prepared evaluator of one bearing with tilting pads, see `bearing_fmu.depths.Film`.
 
     Its state holds d and w of each pad, and their velocities; it is empty before the first evaluation.  Then
@@ -47,6 +48,8 @@ class TiltingFilm(Film):
     axes : ndarray, shape (pads, 2, 2)
         How the journal moves as seen from a pad with d and with w.
     """
+
+    told = len(_DETAILS)
 
     def __init__(
         self,
@@ -69,14 +72,6 @@ class TiltingFilm(Film):
         """The film of these parameters by the names of the port's variables."""
         offset = tuple(float(values.get(f"offset.{name}", 0.0)) for name in port.POSITION)
         return cls(solver, BearingParameters.of(values), offset, float(values.get(port.WHIRL.name, 0.0)))
-
-    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
-        """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
-        out = np.zeros(OUTPUTS + len(_DETAILS))
-        status, now = self._advance(state, inputs, self.offset, dt, out)
-        if status:
-            raise self.failure(status, inputs, self.offset)
-        return out, now
 
     def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
         """Evaluate the port with the pads in balance, see `Film.solve`."""

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.bore import Bore, bore_of
 from bearing_fmu.contact.contact import add_tilted
 from bearing_fmu.evaluate import port_kernel
-from bearing_fmu.film import Film, Solver
+from bearing_fmu.film import Solver
+from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.jfo.network import balance
 from bearing_fmu.films.jfo.reynolds import conclude, set_up
 from bearing_fmu.films.jfo.tangent import add_jfo_tangent
@@ -28,7 +29,6 @@ Floats = NDArray[np.float64]
 
 _FILLINGS = 300
 _EVEN = 1e-9
-_TOLD = 2  # of `fmus.port.BEARING_DETAILS`: share of full film, oil from the grooves
 
 
 @stage
@@ -65,23 +65,13 @@ SOLVER = Solver(
 )
 
 
-class ConservingFilm(Film):
+class ConservingFilm(FilmWithMemory):
     """Prepared evaluator of one bearing with a mass-conserving film, see `bearing_fmu.depths.Film`.
 
     Its state is what `films.jfo.content` remembers; empty before the first evaluation.
     """
 
-    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
-        """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
-        out = np.zeros(OUTPUTS + _TOLD)
-        status, now = self._advance(state, inputs, self.offset, dt, out)
-        if status:
-            raise self.failure(status, inputs, self.offset)
-        return out, now
-
-    def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
-        """Evaluate the port in balance with the inputs, see `Film.solve`."""
-        return self._advance(self.rest(), inputs, offset, 0.0, out)[0]
+    told = 2  # share of full film, oil from the grooves
 
     def _advance(
         self, state: Floats, inputs: Floats, offset: Floats, dt: float, out: Floats

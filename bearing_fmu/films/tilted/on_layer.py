@@ -22,7 +22,8 @@ from bearing_fmu.contact.contact import sliding_sense
 from bearing_fmu.contact.layer import layer_table
 from bearing_fmu.contact.slice import AREA, CONTACT_RESULTS, FORCE, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel
-from bearing_fmu.film import Film, Solver
+from bearing_fmu.film import Solver
+from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.corners import SPREAD, leaving, mix, rise
 from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
 from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
@@ -33,7 +34,6 @@ from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
-from bearing_fmu.outputs import OUTPUTS
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.result import DAMPING, RESULTS, STIFFNESS
 from bearing_fmu.scales import Scales
@@ -160,24 +160,12 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     )
 
 
-class FilmOnLayer(Film):
+class FilmOnLayer(FilmWithMemory):
     """Prepared evaluator of one bearing on a soft layer, see `bearing_fmu.depths.Film`.
 
     Its state is how far the wall has given way, see `deformation`; empty before the first evaluation, in
     which the wall is at rest.
     """
-
-    def evaluate(self, state: Floats, inputs: Floats, dt: float) -> tuple[Floats, Floats]:
-        """Evaluate the port at the end of a step, see `bearing_fmu.depths.Film.evaluate`."""
-        out = np.empty(OUTPUTS)
-        status, now = self._advance(state, inputs, self.offset, dt, out)
-        if status:
-            raise self.failure(status, inputs, self.offset)
-        return out, now
-
-    def solve(self, inputs: Floats, offset: Floats, out: Floats) -> int:
-        """Evaluate the port with the wall at rest, see `Film.solve`."""
-        return self._advance(self.rest(), inputs, offset, 0.0, out)[0]
 
     def _advance(
         self, state: Floats, inputs: Floats, offset: Floats, dt: float, out: Floats
