@@ -181,7 +181,7 @@ class Killed(BaseException):
 
 @pytest.fixture(scope="module")
 def interrupted(toy_fmus, tmp_path_factory):
-    """Scenario and FMUs of the toy train, and the checkpoint of a run of them."""
+    """Scenario and FMUs of the toy train, and the files of a checkpoint of a run of them."""
     folder = tmp_path_factory.mktemp("interrupted")
     toy = toy_fmu_folder(toy_fmus, folder / "named")
     scenario = toy_scenario(folder)
@@ -192,7 +192,7 @@ def interrupted(toy_fmus, tmp_path_factory):
 
     with pytest.raises(Killed):
         simulate(scenario, toy, kill, Execution(checkpoint.Checkpoints(folder / "saved", 4e-3, {})))
-    return scenario, toy, (folder / "saved" / checkpoint.FILE).read_bytes()
+    return scenario, toy, {path.name: path.read_bytes() for path in (folder / "saved").iterdir()}
 
 
 @fault(
@@ -205,14 +205,16 @@ def interrupted(toy_fmus, tmp_path_factory):
 @examples(60)
 def test_damaged_checkpoint(interrupted, room, data):
     """It is refused, or the run goes on: zip archives tell of every other byte."""
-    scenario, toy, content = interrupted
+    scenario, toy, files = interrupted
     with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            (Path(folder) / name).write_bytes(content)
         path = Path(folder) / checkpoint.FILE
-        path.write_bytes(data.draw(bytes_of(content)))
+        path.write_bytes(data.draw(bytes_of(files[checkpoint.FILE])))
         try:
             saved = checkpoint.read(Path(folder))
         except CheckpointError as error:
             said(error, str(path))
             return
-    result = simulate(scenario, toy, None, Execution(None, saved))
+        result = simulate(scenario, toy, None, Execution(None, saved))
     event(f"resumed: {result.outcome.value}")
