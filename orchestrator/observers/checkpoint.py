@@ -7,7 +7,6 @@ place by a rename, so that at any moment there is one whole checkpoint or none.
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
@@ -25,6 +24,7 @@ from orchestrator.master.stepping import StepCounts, Stepper
 from orchestrator.master.system import System
 from orchestrator.master.time_loop import Course
 from orchestrator.observers.checkpoint_meta import Meta, problem_of
+from orchestrator.whole_file import whole_file
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -249,16 +249,9 @@ class Saver(Observer):
 def write(path: Path, meta: Mapping[str, Any], arrays: Arrays) -> None:
     """Write a checkpoint's file: whole, or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    fresh = path.with_name(f"{path.name}.{os.getpid()}.part")
     text = np.frombuffer(json.dumps(meta).encode(), dtype=np.uint8)
-    try:
-        with fresh.open("wb") as file:
-            np.savez(file, meta=text, **arrays)  # type: ignore[arg-type]
-            file.flush()
-            os.fsync(file.fileno())
-        fresh.replace(path)
-    finally:
-        fresh.unlink(missing_ok=True)
+    with whole_file(path) as file:
+        np.savez(file, meta=text, **arrays)  # type: ignore[arg-type]
 
 
 def read(folder: Path) -> Checkpoint:

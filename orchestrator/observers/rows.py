@@ -28,6 +28,7 @@ class Rows:
     def __init__(self, shapes: Mapping[str, tuple[tuple[int, ...], Any]]) -> None:
         self.held = self.forgotten = 0
         self._arrays = {name: np.empty((_ROOM, *shape), dtype=kind) for name, (shape, kind) in shapes.items()}
+        self._bytes_of_row = sum(array[0].nbytes for array in self._arrays.values())
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """The rows of an array that are here; a view."""
@@ -52,7 +53,7 @@ class Rows:
     @property
     def nbytes(self) -> int:
         """Bytes of the rows that are here."""
-        return sum(self[name].nbytes for name in self._arrays)
+        return self.held * self._bytes_of_row
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name; views."""

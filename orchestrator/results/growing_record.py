@@ -25,6 +25,8 @@ from numpy.typing import NDArray
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
+from orchestrator.whole_file import whole_file
+
 HEAD_FILE, ROWS_FILE = "record-head.npz", "record-rows.bin"
 GROWING = ("time", "revolution")
 """Dimensions over which it grows."""
@@ -92,7 +94,7 @@ class GrowingRecord:
 
     def check_size(self) -> None:
         """Raise GrowingRecordError when the file of rows is too short."""
-        path, needed = self.folder / ROWS_FILE, self._bytes(self.blocks)
+        path, needed = self.folder / ROWS_FILE, self._bytes
         found = path.stat().st_size if path.is_file() else 0
         if found < needed:
             raise GrowingRecordError(f"{path}: has {found} bytes of {needed}")
@@ -116,7 +118,7 @@ class GrowingRecord:
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self.folder / ROWS_FILE
         with path.open("r+b" if path.exists() else "w+b") as file:
-            file.seek(self._bytes(self.blocks))
+            file.seek(self._bytes)
             for name, *_ in grown.layout:
                 file.write(np.ascontiguousarray(data[name].values).data)
             file.truncate()
@@ -153,10 +155,10 @@ class GrowingRecord:
                     yield at, block[which]
                 at += block[which] * np.dtype(kind).itemsize * math.prod(shape)
 
-    def _bytes(self, blocks: tuple[Counts, ...]) -> int:
-        if not blocks:
-            return 0
-        rows = [sum(block[k] for block in blocks) for k in range(len(GROWING))]
+    @property
+    def _bytes(self) -> int:
+        """Of the file of rows."""
+        rows = self.counts
         sizes = ((which, np.dtype(kind).itemsize * math.prod(shape)) for _, kind, shape, which in self.layout)
         return sum(rows[which] * size for which, size in sizes)
 
@@ -172,15 +174,8 @@ class GrowingRecord:
         content = BytesIO()
         arrays: dict[str, Any] = {str(name): x.values for name, x in rest.variables.items()}
         np.savez(content, **{"": json.dumps(words), **arrays})
-        fresh = path.with_name(f"{path.name}.{os.getpid()}.part")
-        try:
-            with fresh.open("wb") as file:
-                file.write(content.getvalue())
-                file.flush()
-                os.fsync(file.fileno())  # a checkpoint that counts its rows comes behind it
-            fresh.replace(path)
-        finally:
-            fresh.unlink(missing_ok=True)
+        with whole_file(path) as file:  # on disk, for a checkpoint that counts its rows comes behind it
+            file.write(content.getvalue())
 
 
 def is_growing(folder: Path) -> bool:
