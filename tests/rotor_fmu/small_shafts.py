@@ -92,3 +92,15 @@ def run(rotor, law, H, steps, *, start=0, speed=12.0):
     for k in range(start, start + steps):
         rotor.step(k * H, H, *law, speed)
     return rotor
+
+
+OMEGA = 100.0
+"""Natural frequency of `jeffcott` [rad/s]."""
+
+
+def jeffcott(zeta, speed, **more):
+    """A unit mass on an isotropic spring, its law, and a rotor at a speed with unit eccentricity."""
+    nothing = np.zeros((4, 4))
+    model, reduced = unreduced(np.eye(4), nothing, nothing, nothing, bearings=(0,), wheels=(0,))
+    rotor = matrix_rotor(model, reduced, unbalance([1.0], [0.0]), gravity=0.0, speed=speed, **more)
+    return rotor, (np.zeros((1, 4)), OMEGA**2 * np.eye(4)[None], 2.0 * zeta * OMEGA * np.eye(4)[None])
