@@ -1,6 +1,6 @@
-"""Tables of a unit's variables, for the README of this folder and the page inside each FMU.
+"""Tables of a unit's variables, for the page beside them and the one inside each FMU.
 
-``python -m fmus.build.describe`` writes the tables anew into the README.
+``python -m fmus.build.describe`` writes the tables anew into `VARIABLES.md`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from fmus import port
 from fmus.build.description import Identity
 from fmus.port.variable import Variable
 
-README = Path(__file__).parents[1] / "README.md"
+PAGE = Path(__file__).parents[1] / "VARIABLES.md"
 _INDEX = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c", "pad_tilt": "p"}
 _OF_TRAIN = re.compile(r"speed|bearing\[i\]\.(F0\.Fy|start\..*)|wheel\[j\]\.unbalance.*")
 
@@ -88,13 +88,13 @@ def _start(variable: Variable) -> str:
 
 
 def tables() -> Iterator[tuple[str, str]]:
-    """Yield the tables of the README by name."""
+    """Yield the tables of the page by name."""
     yield "bearing", table(port.BEARING)
     yield "rotor", table(port.rotor(["bearing i"], ["wheel j"], 1), _OF_TRAIN)
 
 
 def with_tables(text: str) -> str:
-    """Return the README with its tables, which stand between comments, written anew."""
+    """Return the page with its tables, which stand between comments, written anew."""
     for name, content in tables():
         begin, end = f"<!-- table: {name} -->", f"<!-- end: {name} -->"
         head, _, rest = text.partition(begin)
@@ -103,4 +103,4 @@ def with_tables(text: str) -> str:
 
 
 if __name__ == "__main__":
-    README.write_text(with_tables(README.read_text(encoding="utf-8")), encoding="utf-8")
+    PAGE.write_text(with_tables(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The README for users of other tools lists the port as it is."""
+"""The page of the variables lists the port as it is."""
 
 import re
 
@@ -6,13 +6,13 @@ from fmus import port
 from fmus.build import describe
 
 
-def test_the_tables_of_the_readme_match_the_port():
-    text = describe.README.read_text(encoding="utf-8")
+def test_the_tables_of_the_page_match_the_port():
+    text = describe.PAGE.read_text(encoding="utf-8")
     assert describe.with_tables(text) == text, "run python -m fmus.build.describe"
 
 
 def test_every_variable_stands_in_the_tables(small_train):
-    text = describe.README.read_text(encoding="utf-8")
+    text = describe.PAGE.read_text(encoding="utf-8")
     names = [b.name for b in small_train.bearings], [w.name for w in small_train.wheels]
     indices = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c", "pad_tilt": "p"}
     for variable in (*port.BEARING, *port.rotor(*names, small_train.nodes)):

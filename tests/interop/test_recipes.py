@@ -9,7 +9,7 @@ import pytest
 
 from tests.interop.tools import REPOSITORY, TOOLS, missing
 
-PAGE = (REPOSITORY / "fmus" / "README.md").read_text(encoding="utf-8")
+PAGE = (REPOSITORY / "fmus" / "TOOLS.md").read_text(encoding="utf-8")
 RECIPES = dict(re.findall(r"<!-- recipe: (\w+) -->\n```python\n(.*?)```", PAGE, re.DOTALL))
 
 
