@@ -254,9 +254,8 @@ class Stepper:
         """Relative defect of a step, and weighted relative error from its length."""
         assert advance.of_length is not None
         of_length = OF_LENGTH * self._system.relative(advance.of_length)
-        if advance.sizes is None or advance.answers is None:
-            return self._system.relative(advance.defect), of_length
-        return float(advance.sizes.max(where=advance.answers, initial=0.0)), of_length
+        errors = advance.errors
+        return self._system.relative(advance.defect) if errors is None else errors.answered, of_length
 
     def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
         system = self._system
@@ -287,6 +286,6 @@ class Stepper:
         counts.accepted += 1
         counts.iterations += advance.iterations
         counts.shortest = min(counts.shortest, step)
-        defect = sizes[0] if advance.sizes is None else float(advance.sizes.max())
+        defect = sizes[0] if advance.errors is None else advance.errors.largest
         counts.largest_relative_defect = max(counts.largest_relative_defect, defect)
         counts.largest_relative_error = max(counts.largest_relative_error, *sizes)

@@ -25,7 +25,6 @@ _BEARING_INPUTS = tuple(v.name for v in port.BEARING_INPUTS)
 _BEARING_OUTPUTS = tuple(v.name for v in port.BEARING_OUTPUTS)
 _TANGENT = slice(RESPONSE[port.K[0]], RESPONSE[port.C[-1]] + 1)
 _FORCE = slice(RESPONSE[port.FORCE[0]], RESPONSE[port.FORCE[-1]] + 1)
-_LAW = slice(RESPONSE[port.LAW[0]], RESPONSE[port.LAW[-1]] + 1)
 _PER_LAW = len(port.LAW)
 _PER_JOURNAL = len(port.JOURNAL)
 
@@ -146,6 +145,11 @@ class System:
         return self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
 
     @property
+    def tangent_rows(self) -> Array:
+        """The same by rows (bearings, 32), a view."""
+        return self.responses[:, _TANGENT]
+
+    @property
     def tangents(self) -> Array:
         """Stiffness and damping [K C] that the bearings returned last (bearings, 4, 8), a copy."""
         square = self.squares
@@ -177,13 +181,9 @@ class System:
     def sizes(self, defect: Array) -> Array:
         """Return the largest component of each bearing's defect against `scale`, (bearings,)."""
         # Without making the array of scales, which takes three times as long; this is asked at every step.
-        return np.asarray(self.magnitudes(defect) / self._force_scale())
-
-    def magnitudes(self, defect: Array) -> Array:
-        """Return the largest component of each bearing's defect in N, moments over levers, (bearings,)."""
         size = np.abs(defect)
         forces, moments = np.maximum(size[:, 0], size[:, 1]), np.maximum(size[:, 2], size[:, 3])
-        return np.asarray(np.maximum(forces, moments / self.levers))
+        return np.asarray(np.maximum(forces, moments / self.levers) / self._force_scale())
 
     def _force_scale(self) -> Array:
         return np.maximum(self.loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
@@ -206,13 +206,10 @@ class System:
         """Set the speed of the bearings alone, as `set_speed`."""
         self.bearing_inputs[:, _BEARING_INPUTS.index(port.SPEED)] = speed
 
-    def give_laws(self, laws: Array | None = None) -> None:
-        """Give the rotor laws, by default the newest, over FMI what it lacks of them, and what turns it."""
+    def tell_laws(self, changed: Sequence[int]) -> None:
+        """Tell the rotor over FMI what has changed in `laws`, by numbers of bearings, and what turns it."""
         start = perf_counter()
-        newest = self.responses[:, _LAW] if laws is None else laws
-        changed = np.flatnonzero((newest != self.laws).any(axis=1))
-        self.laws[changed] = newest[changed]
-        if 2 * len(changed) > len(newest):
+        if 2 * len(changed) > len(self.laws):
             self._all_laws.set()
         else:
             for k in changed:
@@ -228,14 +225,6 @@ class System:
         if self.housings is None:
             return there
         return there - self.bearing_inputs[:, _PER_JOURNAL : 2 * _PER_JOURNAL]
-
-    def moved(self) -> Array:
-        """Return by how much motion and velocity changed the wrenches of the laws since bearings stood last.
-
-        (bearings, 4), sizes of both added: they may cancel, and what bends does not.
-        """
-        parts = np.matmul(self.squares, (self.motion - self.stands_at()).reshape(-1, 2, 4, 1))
-        return np.asarray(np.abs(parts[..., 0]).sum(axis=1))
 
     def defect(self) -> Array:
         """Return F(q, v) - (F0 - K q - C v) at the newest state with the law that the rotor used.

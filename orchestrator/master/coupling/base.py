@@ -14,6 +14,13 @@ from orchestrator.master.rollback import Rollback
 from orchestrator.master.system import System, Wiring
 
 
+class Errors(NamedTuple):
+    """Largest relative defects of a step: of all bearings, and of those for which its length answers."""
+
+    largest: float
+    answered: float
+
+
 class Advance(NamedTuple):
     """A macro step that was carried out.
 
@@ -30,18 +37,15 @@ class Advance(NamedTuple):
         `orchestrator.master.step_error`; the step control puts it in.
     evaluated : ndarray of bool or None
         The bearings that stand at the end of the step; the defect of others is 0. None: all.
-    sizes : ndarray or None
-        The defects against what is transmitted, (bearings,), as far as the scheme knows them.
-    answers : ndarray of bool or None
-        The bearings for whose defect the length of this step answers; None: all.
+    errors : Errors or None
+        The defects against what is transmitted, where the scheme has another measure than `System.relative`.
     """
 
     iterations: int
     defect: NDArray[np.float64]
     of_length: NDArray[np.float64] | None = None
     evaluated: NDArray[np.bool_] | None = None
-    sizes: NDArray[np.float64] | None = None
-    answers: NDArray[np.bool_] | None = None
+    errors: Errors | None = None
 
 
 class NotConverged(OrchestratorError):

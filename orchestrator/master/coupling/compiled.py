@@ -1,0 +1,28 @@
+"""Small loops over the bearings, compiled: a call of numpy on eleven numbers costs as much as the whole loop.
+
+Each is kept next to its source and compiled anew when that file changes, so that it draws on functions of
+its own file only, and on numbers of others that it was given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from numba import njit
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
+
+
+def compiled(function: _Function) -> _Function:
+    """Compile a function at its first call; as it stands it is ``py_func``."""
+    try:
+        return njit(cache=True, **_OPTIONS)(function)  # type: ignore[no-any-return]
+    except RuntimeError:  # no folder to keep compiled code in: compile in every process
+        return njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
+
+
+def inlined(function: _Function) -> _Function:
+    """Compile a function as a part of those that call it, which are in its file."""
+    return njit(inline="always", **_OPTIONS)(function)  # type: ignore[no-any-return]

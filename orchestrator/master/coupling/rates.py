@@ -1,0 +1,296 @@
+"""How long each bearing may go on with its law: the arithmetic of `orchestrator.master.coupling.multirate`.
+
+Arrays have a row a bearing.  What is known of a bearing is a row of `KNOWN` and K and C behind it; wrenches
+are (4), tangents K and C by rows (32), motions q and v (8), laws F0, K, C (36).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from orchestrator.master.coupling.compiled import compiled, inlined
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+KNOWN = ("stands", "interval", "bend", "size", "span")
+"""Columns of what is known of bearings.
+
+stands : where they were evaluated last, in s;
+interval : after which they are due, in s;
+bend : relative defect of the last interval over the square of what moved the wrench in it, see `due_at`; at
+    least `FADES` of that before;
+size : largest force of late, in N;
+span : how long the last interval was, in s; 0 before there was one.
+
+K and C at its start follow.
+"""
+
+STANDS, INTERVAL, BEND, SIZE, SPAN = range(len(KNOWN))
+BEFORE = len(KNOWN)
+WIDTH = BEFORE + 32
+
+OWN = 0.3
+"""Share of the tolerance that the defect over an interval of several steps may reach: of equal defects that
+of the longer interval does more harm."""
+
+CALM = 0.2
+"""Share of that within which the defect, of second order, allows twice the interval."""
+
+STIFFENS = 0.5
+"""Bend that is expected at least, that of a force as the inverse of a gap, of what bends at all."""
+
+LINEAR = 1e-3
+"""Bend of what does not bend."""
+
+FADES = 0.5
+"""Share of the bend of the interval before that is expected still: a calm interval tells little of it."""
+
+SHARE = 0.8
+"""Of the third of a change that a smooth motion asks for.
+
+Big train through the fracture, evaluations for an RMS force error of 0.5 % with a share of 0, 0.6, 0.8 and
+1 of it: 3300, 3105, 2950 and 3220.
+"""
+
+MOST = 0.5
+"""Change of a component of K or C over an interval, against itself, that is followed at most."""
+
+_WHOLE = 1.0 - 1e-6
+"""Share of an interval that counts as the whole."""
+
+_HERE = 1e-6
+"""Share of a step by which instants differ that are the same but for rounding."""
+
+_NOTHING = 1e-12
+"""Relative change of a wrench that is none."""
+
+
+@inlined
+def _magnitude(fx: float, fy: float, mx: float, my: float, lever: float) -> float:
+    """Largest component of a wrench, moments over the lever; not a number where one is none."""
+    largest = 0.0
+    for size in (abs(fx), abs(fy), abs(mx) / lever, abs(my) / lever):
+        if size > largest or math.isnan(size):
+            largest = size
+    return largest
+
+
+@compiled
+def bend_on(
+    time: float,
+    step: float,
+    bends: bool,
+    rates: Array,
+    wrenches: Array,
+    tangents: Array,
+    where: Array,
+    laws: Array,
+    changed: Mask,
+) -> None:
+    """Give bearings that stand at `time` laws for the intervals that begin there.
+
+    A tangent misses what the wrench bends by within the interval h.  While the motion is smooth, K and C
+    go on changing as they did over the interval before, by D a second.  Where the motion runs straight, a
+    tangent ``K + D h / 3`` then has the mean wrench of the interval to third order, at no evaluation.  It
+    stays a stiffness and a damping, which the rotor takes implicitly; the last defect, added as a force,
+    was tried and does harm in contact.  There films stiffen faster than an interval before can tell, so
+    `SHARE` of the third is taken, and of the change of each component no more than `MOST` of itself.
+
+    Parameters
+    ----------
+    time, step : float
+        Start and length of the rotor's step in s.
+    bends : bool
+        Whether laws bend on.
+    rates : ndarray (n, WIDTH)
+        What is known; instants that are `time` but for rounding become `time`.
+    wrenches, tangents : ndarray (n, 4), (n, 32)
+        What the bearings returned last.
+    where : ndarray (n, 8)
+        Motion of the journals in their housings where the bearings stand.
+    laws : ndarray (n, 36)
+        Of the rotor; those that change are overwritten.
+    changed : ndarray of bool (n,)
+        Overwritten with which.
+    """
+    for b in range(len(rates)):
+        changed[b] = False
+        if not abs(rates[b, STANDS] - time) <= _HERE * step:
+            continue
+        rates[b, STANDS] = time
+        span, ratio = rates[b, SPAN], 0.0
+        if bends and span > 0.0:
+            ratio = max(rates[b, INTERVAL], step) / span
+        for i in range(4):
+            wrench = wrenches[b, i]
+            for part in range(2):
+                for j in range(4):
+                    k = 16 * part + 4 * i + j
+                    tangent = tangents[b, k]
+                    change, most = (tangent - rates[b, BEFORE + k]) * ratio, MOST * abs(tangent)
+                    bent = tangent + SHARE / 3.0 * min(max(change, -most), most)
+                    wrench += bent * where[b, 4 * part + j]
+                    changed[b] |= laws[b, 4 + k] != bent
+                    laws[b, 4 + k] = bent
+            changed[b] |= laws[b, i] != wrench
+            laws[b, i] = wrench
+
+
+@compiled
+def due_at(
+    end: float,
+    tolerance: float,
+    all_of_them: bool,
+    rates: Array,
+    tangents: Array,
+    where: Array,
+    motion: Array,
+    levers: Array,
+    again: Mask,
+    moved: Array,
+    due: Mask,
+) -> None:
+    """Find which bearings are to be evaluated at the end of a step.
+
+    That is at the end of their intervals, and where motion and velocity have changed the wrench so much that
+    the defect is to be expected above the tolerance.
+
+    Parameters
+    ----------
+    end, tolerance : float
+        In s; largest relative defect of an interval.
+    all_of_them : bool
+        Whether the end is a common instant.
+    rates, tangents, where
+        As above.
+    motion : ndarray (n, 8)
+        The same now.
+    levers : ndarray (n,)
+        See `System.set_scale`.
+    again : ndarray of bool (n,)
+        Those that are due for another reason.
+    moved : ndarray (n,)
+        Overwritten with the changes of wrenches since bearings stood last over their sizes: those by motion
+        and by velocity added, for they may cancel, and what bends does not.
+    due : ndarray of bool (n,)
+        Overwritten.
+    """
+    for b in range(len(rates)):
+        change = np.zeros(4)
+        for part in range(2):
+            for i in range(4):
+                total = 0.0
+                for j in range(4):
+                    at = 4 * part + j
+                    total += tangents[b, 16 * part + 4 * i + j] * (motion[b, at] - where[b, at])
+                change[i] += abs(total)
+        moved[b] = _magnitude(change[0], change[1], change[2], change[3], levers[b]) / rates[b, SIZE]
+        bend = rates[b, BEND]
+        if bend > LINEAR:
+            bend = max(bend, STIFFENS)
+        due[b] = (
+            all_of_them
+            or again[b]
+            or end - rates[b, STANDS] >= _WHOLE * rates[b, INTERVAL]
+            or bend * moved[b] ** 2 > tolerance
+        )
+
+
+@compiled
+def defects(wrenches: Array, laws: Array, motion: Array, due: Mask, defect: Array) -> None:
+    """Overwrite defects, (n, 4), with F(q, v) - (F0 - K q - C v) of the laws used; 0 of those not due."""
+    for b in range(len(due)):
+        for i in range(4):
+            defect[b, i] = 0.0
+            if due[b]:
+                reaction = 0.0
+                for part in range(2):
+                    for j in range(4):
+                        reaction += laws[b, 4 + 16 * part + 4 * i + j] * motion[b, 4 * part + j]
+                defect[b, i] = wrenches[b, i] - laws[b, i] + reaction
+
+
+@compiled
+def relative(
+    start: float,
+    tolerance: float,
+    defect: Array,
+    levers: Array,
+    size: Array,
+    rates: Array,
+    again: Mask,
+    sizes: Array,
+    rough: Mask,
+) -> tuple[float, float]:
+    """Measure defects: the largest of all, and of those for which the length of the step answers.
+
+    A shorter step helps those that stand at its start, and others once, to be evaluated in time: they are due
+    in its repetition.
+
+    Parameters
+    ----------
+    start, tolerance : float
+        Of the step in s; largest relative defect.
+    defect, levers, size, rates, again
+        As above.
+    sizes : ndarray (n,)
+        Overwritten with relative defects.
+    rough : ndarray of bool (n,)
+        Overwritten with whose is above the tolerance.
+    """
+    largest = answered = 0.0
+    for b in range(len(size)):
+        found = _magnitude(defect[b, 0], defect[b, 1], defect[b, 2], defect[b, 3], levers[b]) / size[b]
+        sizes[b], rough[b] = found, found > tolerance
+        if found > largest or math.isnan(found):
+            largest = found
+        answers = rates[b, STANDS] == start or not (found <= tolerance or again[b]) or math.isnan(found)
+        if answers and (found > answered or math.isnan(found)):
+            answered = found
+    return largest, answered
+
+
+@compiled
+def intervals_after(
+    end: float,
+    tolerance: float,
+    rates: Array,
+    tangents: Array,
+    due: Mask,
+    moved: Array,
+    sizes: Array,
+    size: Array,
+    after: Array,
+) -> None:
+    """Overwrite `after` with what is known behind defects of these relative sizes at `end`.
+
+    Intervals double where they were calm and halve where they were not.
+
+    Parameters
+    ----------
+    tangents : ndarray (n, 32)
+        K and C at the start of the step.
+    size : ndarray (n,)
+        Forces that defects are measured by.
+    others
+        As above; `rates` is what was known.
+    """
+    for b in range(len(rates)):
+        after[b] = rates[b]
+        after[b, SIZE] = size[b]
+        if not due[b]:
+            continue
+        span = end - rates[b, STANDS]
+        interval = rates[b, INTERVAL]
+        if span >= _WHOLE * interval and sizes[b] <= CALM * tolerance:
+            interval = 2.0 * span
+        if sizes[b] > tolerance:
+            interval = min(interval, 0.5 * span)
+        bend = sizes[b] / max(moved[b], _NOTHING) ** 2
+        after[b, STANDS], after[b, SPAN], after[b, INTERVAL] = end, span, interval
+        after[b, BEND] = max(bend, FADES * rates[b, BEND])
+        after[b, BEFORE:] = tangents[b]
