@@ -13,7 +13,7 @@ With s the share of the time from one evaluation to the next, held the values of
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,12 +56,42 @@ class Bores:
         """Move a bore, as an event does."""
         self.offsets[bearing, coordinate] += by
 
-    def gaps(self, bearing: Numbers, motion: Array) -> tuple[Array, Array]:
-        """Least gaps over these bearings' films, and in their middle, (m,) in m, of motions (m, 8)."""
-        x, y, tilt_x, tilt_y = (motion[:, :4] - self.offsets[bearing]).T
+    def gaps(self, bearing: Numbers, motion: Array, offsets: Array) -> tuple[Array, Array]:
+        """Least gaps over these bearings' films, and in their middle, (m,) in m.
+
+        Of motions (m, 8), with the bores' centres at offsets (m, 4).
+        """
+        x, y, tilt_x, tilt_y = (motion[:, :4] - offsets).T
         half, clearance = self._half[bearing], self.clearance[bearing]
         ends = [np.hypot(x + side * half * tilt_y, y - side * half * tilt_x) for side in (-1.0, 1.0)]
         return clearance - np.maximum(*ends), clearance - np.hypot(x, y)
+
+
+class _Passed(NamedTuple):
+    """Bearings, (k,), that were evaluated where records had waited for them.
+
+    Attributes
+    ----------
+    bearing, first, last : ndarray of int
+        Their numbers, the first record that waited, and that behind the last.
+    start, end : ndarray
+        When they were evaluated before and now, in s.
+    before, after : ndarray (k, outputs)
+        What they told.
+    motion, motion_after, offsets : ndarray (k, 8), (k, 8), (k, 4)
+        Where they stood, and the centres of their bores.
+    """
+
+    bearing: Numbers
+    first: Numbers
+    last: Numbers
+    start: Array
+    end: Array
+    before: Array
+    after: Array
+    motion: Array
+    motion_after: Array
+    offsets: Array
 
 
 class Between:
@@ -89,6 +119,7 @@ class Between:
         self._bores = bores
         self.stands, self.first, self.filled = np.zeros(count), np.zeros(count, dtype=np.intp), 0
         self._values, self._motion = np.zeros((count, outputs)), np.zeros((count, 8))
+        self._passed: list[_Passed] = []
 
     def kept(self, row: int, waits: Mask, told: Callable[[], Array], motion: Callable[[], Array]) -> int:
         """Note a record, for which some bearings wait, with what all tell and their motion where they stand.
@@ -99,18 +130,53 @@ class Between:
             fresh = waits & (self.first == row)
             self._values[fresh], self._motion[fresh] = told()[fresh], motion()[fresh]
         self.first[~waits] = row + 1
-        return int(self.first.min())
+        return self.complete
 
-    def waiting(self, chosen: Mask, rows: int) -> tuple[Numbers, Numbers]:
-        """Records up to `rows` and bearings among the chosen that wait, a pair each."""
-        begin = int(self.first[chosen].min(initial=rows))
-        row, bearing = np.nonzero((np.arange(begin, rows)[:, None] >= self.first) & chosen)
-        return row + begin, bearing
+    def evaluated(
+        self, done: Mask, end: float, rows: int, told: Callable[[], Array], motion: Callable[[], Array]
+    ) -> int:
+        """Note that these bearings stand at `end`, where there are so many records.
 
-    def complete(self, chosen: Mask, rows: int) -> int:
-        """Note that nothing waits for these bearings; the number of records that are complete."""
-        self.filled += int((rows - self.first[chosen]).sum())
-        self.first[chosen] = rows
+        Returns the number of evaluations that end a wait and are to be looked at, see `fill`.
+        """
+        k = np.flatnonzero(done & (self.first < rows))
+        if len(k):
+            last, now = np.full(len(k), rows), np.full(len(k), end)
+            then = self._values[k], told()[k], self._motion[k], motion()[k], self._bores.offsets[k]
+            self._passed.append(_Passed(k, self.first[k], last, self.stands[k], now, *then))
+            self.filled += int((last - self.first[k]).sum())
+            self.first[k] = rows
+        self.stands[done] = end
+        return len(self._passed)
+
+    def fill(
+        self, times: Array, motion: Callable[[Numbers, Numbers], Array]
+    ) -> tuple[Numbers, Numbers, Array] | None:
+        """What waited and does no longer: records, bearings, and what those told then, (m, outputs).
+
+        Parameters
+        ----------
+        times : ndarray
+            Of all records in s.
+        motion : callable
+            q and v of the journals in their housings, (m, 8), in records of bearings.
+        """
+        passed, self._passed = self._passed, []
+        if not passed:
+            return None
+        parts: Any = zip(*passed, strict=True)
+        all_of_them = _Passed(*(np.concatenate(part) for part in parts))
+        counts = all_of_them.last - all_of_them.first
+        each = np.repeat(np.arange(len(counts)), counts)
+        parts = (part[each] for part in all_of_them)
+        found = _Passed(*parts)
+        rows = found.first + np.arange(len(each)) - np.repeat(np.cumsum(counts) - counts, counts)
+        share = (times[rows] - found.start) / (found.end - found.start)
+        return rows, found.bearing, self._told(found, share, motion(rows, found.bearing))
+
+    @property
+    def complete(self) -> int:
+        """The number of records that nothing waits for."""
         return int(self.first.min())
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -125,39 +191,20 @@ class Between:
         self.first[:], self.stands[:] = arrays["between.first"], arrays["between.stands"]
         self._values[:], self._motion[:] = arrays["between.values"], arrays["between.motion"]
         self._bores.offsets[:] = arrays["between.offsets"]
-        self.filled = int(arrays["between.filled"])
-        return int(self.first.min())
+        self.filled, self._passed = int(arrays["between.filled"]), []
+        return self.complete
 
-    def shares(self, bearing: Numbers, times: Array, end: float) -> Array:
-        """Shares of the time from where bearings stand to `end`, (m,)."""
-        stands = self.stands[bearing]
-        return np.asarray((times - stands) / (end - stands))
-
-    def at(self, bearing: Numbers, share: Array, motion: Array, newest: Array, newest_motion: Array) -> Array:
-        """What bearings tell in between.
-
-        Parameters
-        ----------
-        bearing : ndarray of int (m,)
-            Their numbers.
-        share : ndarray (m,)
-            See `shares`.
-        motion : ndarray (m, 8)
-            q and v in their housings.
-        newest, newest_motion : ndarray (bearings, outputs), (bearings, 8)
-            What all bearings tell now, and their motion.
-
-        Returns
-        -------
-        ndarray (m, outputs)
-        """
-        before, after, s = self._values[bearing], newest[bearing], share[:, None]
-        result = before + s * (after - before)
+    def _told(self, found: _Passed, share: Array, motion: Array) -> Array:
+        """What bearings told at shares, (m,), of the time between evaluations, in motion (m, 8)."""
+        bearing, before, after = found.bearing, found.before, found.after
+        result = before + share[:, None] * (after - before)
         law = before[:, _LAW]
-        missed = after[:, _FORCE] - law_wrenches(law, newest_motion[bearing])
-        result[:, _FORCE] = law_wrenches(law, motion) + s**2 * missed
+        missed = after[:, _FORCE] - law_wrenches(law, found.motion_after)
+        result[:, _FORCE] = law_wrenches(law, motion) + share[:, None] ** 2 * missed
         result[:, _NEARER] = np.where(share < 0.5, before[:, _NEARER], after[:, _NEARER])
-        ways = [self._bores.gaps(bearing, x) for x in (self._motion[bearing], motion, newest_motion[bearing])]
+        ways = [
+            self._bores.gaps(bearing, x, found.offsets) for x in (found.motion, motion, found.motion_after)
+        ]
         over, centre = (np.array(kind) for kind in zip(*ways, strict=True))
         clearance = self._bores.clearance[bearing]
         least, middle = RESPONSE["h_min"], RESPONSE["h_min_centre"]

@@ -49,6 +49,9 @@ def tells_details(unit: Unit) -> bool:
     return tilts(unit) or unit.get_string(port.BEARING_KEYS["boundary"]) == "jfo"
 
 
+_TOGETHER = 64  # steps at which waits have ended that are looked at together
+
+
 class Recorder(Observer):
     """Records of a run.
 
@@ -67,8 +70,6 @@ class Recorder(Observer):
 
     Attributes
     ----------
-    size : int
-        Records that are complete, among those that are not forgotten.
     peaks, peak_times : ndarray (bearings, 9)
         Extremes of the whole run in the order of `EXTREMES`, and their instants in s.
     """
@@ -78,7 +79,7 @@ class Recorder(Observer):
         moving = bearings if system.housings is not None else 0
         self._system = system
         self._steps, self._stride = steps, stride
-        self.size, self._newest = 0, -1.0
+        self._newest = -1.0
         self._between = Between(bores, len(RESPONSE) + len(DETAILS))
         self._whole = True
         self.rows = Rows(
@@ -123,9 +124,9 @@ class Recorder(Observer):
         self._whole = done is None or bool(done.all())
         self._note(end, advance)
         if done is not None:
-            if int(self._between.first[done].min(initial=self.rows.held)) < self.rows.held:
-                self._fill(done, end)
-            self._between.stands[done] = end
+            told = self._told, lambda: self._system.motion
+            if self._between.evaluated(done, end, self.rows.held, *told) > _TOGETHER:
+                self._fill()
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
         """Keep a record if one is due."""
@@ -140,10 +141,8 @@ class Recorder(Observer):
     def _note(self, time: float, advance: Advance | None) -> None:
         now = self._now
         extremes_of(self._system.responses, now)
-        for column, error in (
-            (DEFECT, advance and advance.defect),
-            (STEP_ERROR, advance and advance.of_length),
-        ):
+        errors = (None, None) if advance is None else (advance.defect, advance.of_length)
+        for column, error in zip((DEFECT, STEP_ERROR), errors, strict=True):
             if error is None:
                 now[:, column] = 0.0
             else:
@@ -160,8 +159,10 @@ class Recorder(Observer):
         system = self._system
         for block in (*self._detail_blocks, self._shaft_block):
             block.get()
-        if system.housings is not None:
+        moving = {} if system.housings is None else {"housings": system.housings}
+        if moving:
             self._foundation_block.get()
+            moving["foundation"] = self._foundation_values
         row = self.rows.add(
             times=time,
             speeds=system.speed,
@@ -171,61 +172,70 @@ class Recorder(Observer):
             extremes=self._since * SIGN,
             shaft=self._shaft_values[: len(SHAFT)],
             fields=self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1),
-            **({} if system.housings is None else _on_foundation(system, self._foundation_values)),
+            **moving,
         )
         self._since[:] = -np.inf
         self._newest = time
         waits = np.zeros(len(self._now), dtype=bool) if self._whole else self._between.stands < time
-        self.size = self._between.kept(row, waits, self._told, system.stands_at)
+        self._between.kept(row, waits, self._told, system.stands_at)
 
     def _told(self) -> Array:
         """All that bearings tell where they stand, (bearings, outputs and details)."""
-        return np.hstack([self._system.responses, self._details_now])
-
-    def _fill(self, done: NDArray[np.bool_], end: float) -> None:
-        """Complete what waits for these bearings, which stand at `end`."""
-        system, between, kept = self._system, self._between, self.rows
-        rows, bearing = between.waiting(done, kept.held)
         for block in self._detail_blocks:
             block.get()
-        motion = kept["journals"][rows, bearing]
-        if system.housings is not None:
-            motion = motion - kept["housings"][rows, bearing]
-        share = between.shares(bearing, kept["times"][rows], end)
-        values = between.at(bearing, share, motion, self._told(), system.motion)
+        return np.hstack([self._system.responses, self._details_now])
+
+    def _fill(self) -> None:
+        """Complete what waited."""
+        kept = self.rows
+
+        def motion(rows: NDArray[np.intp], bearing: NDArray[np.intp]) -> Array:
+            at = kept["journals"][rows, bearing]
+            return at if self._system.housings is None else at - kept["housings"][rows, bearing]
+
+        if (found := self._between.fill(kept["times"], motion)) is None:
+            return
+        rows, bearing, values = found
         kept["responses"][rows, bearing] = values[:, _KEPT]
         kept["details"][rows, bearing] = values[:, len(RESPONSE) :]
         extremes = kept["extremes"][rows, bearing] * SIGN
         extremes[:, DEFECT] = np.maximum(extremes[:, DEFECT], 0.0)
         extremes = np.maximum(extremes, extremes_of(values))
         kept["extremes"][rows, bearing] = extremes * SIGN
-        for row, b, found in zip(rows, bearing, extremes, strict=True):
-            higher = found > self._peaks[b]
-            self._peaks[b, higher], self.peak_times[b, higher] = found[higher], kept["times"][row]
-        self.size = between.complete(done, kept.held)
+        for row, b, found_there in zip(rows, bearing, extremes, strict=True):
+            higher = found_there > self._peaks[b]
+            self._peaks[b, higher], self.peak_times[b, higher] = found_there[higher], kept["times"][row]
+
+    @property
+    def size(self) -> int:
+        """Records that are complete, among those that are not forgotten."""
+        self._fill()
+        return self._between.complete
 
     def forget(self, count: int) -> None:
         """Forget the first complete records, which are written elsewhere."""
+        self._fill()
         self.rows.forget(count)
         self._between.first -= count
-        self.size -= count
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that is here, by name; views."""
+        self._fill()
         whole = {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
-        whole["newest"] = np.array(self._newest)
-        return self.rows.arrays() | whole | {f"between.{k}": x for k, x in self._between.arrays().items()}
+        whole |= {"newest": np.array(self._newest)} | self.rows.arrays()
+        return whole | {f"between.{k}": x for k, x in self._between.arrays().items()}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
         self.rows.restore(arrays)
-        self.size = self._between.restore(arrays)
+        self._between.restore(arrays)
         self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
         self.peak_times[:] = arrays["peak_times"]
         self._newest = float(arrays["newest"])
 
     def copy(self) -> Recorder:
         """What is complete now, whatever the run goes on to do; views."""
+        self._fill()
         return copy(self)
 
     @property
@@ -278,6 +288,7 @@ class Recorder(Observer):
     @property
     def peaks(self) -> Array:
         """Extremes of the whole run, (bearings, 9)."""
+        self._fill()
         return self._peaks * SIGN
 
     def shaft(self, name: str) -> Array:
@@ -287,9 +298,3 @@ class Recorder(Observer):
     def field(self, name: str) -> NDArray[np.float32]:
         """Rotor output ``node[:].name``, one of `FIELDS`, (records, nodes)."""
         return self.rows["fields"][: self.size, FIELDS.index(name)]
-
-
-def _on_foundation(system: System, wrenches: Array) -> dict[str, Array]:
-    """Motion of the housings and what acts on the foundation, as kept."""
-    assert system.housings is not None
-    return {"housings": system.housings, "foundation": wrenches}

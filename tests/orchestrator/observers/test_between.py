@@ -45,13 +45,18 @@ def passed_over(span, dent=0.0):
     times = span * np.array([0.125, 0.5, 0.875])
     for row in range(1, 4):
         assert between.kept(row, both, lambda: told(0.0, dent), lambda: motion(0.0)) == 1
-    rows, bearing = between.waiting(both, 4)
+    assert between.evaluated(both, span, 4, lambda: told(span, dent), lambda: motion(span)) == 1
+    bores.move(0, 1, 1.0)  # later
+
+    def places(rows, bearing):
+        return np.array([motion(times[row - 1])[b] for row, b in zip(rows, bearing, strict=True)])
+
+    rows, bearing, found = between.fill(np.concatenate([[0.0], times]), places)
     assert sorted(zip(rows, bearing, strict=True)) == [(r, b) for r in (1, 2, 3) for b in (0, 1)]
-    at = times[rows - 1]
-    places = np.array([motion(t)[b] for t, b in zip(at, bearing, strict=True)])
-    share = between.shares(bearing, at, span)
-    found = between.at(bearing, share, places, told(span, dent), motion(span))
-    assert between.complete(both, 4) == 4
+    order = np.lexsort((bearing, rows))
+    found, bearing, at = found[order], bearing[order], times[rows[order] - 1]
+    assert (between.complete, between.filled) == (4, 6)
+    assert between.fill(times, places) is None
     return found, np.array([told(t, dent)[b] for t, b in zip(at, bearing, strict=True)])
 
 
@@ -96,7 +101,7 @@ def test_a_bore_that_moves():
     between = Between(bores, len(RESPONSE))
     bores.move(0, 1, -2e-4)
     sunk = np.array([[0.0, -2e-4, 0.0, 0.0]])
-    assert bores.gaps(np.array([0]), sunk)[1] == pytest.approx([CLEARANCE])
+    assert bores.gaps(np.array([0]), sunk, bores.offsets)[1] == pytest.approx([CLEARANCE])
     again = Bores([CLEARANCE], [0.0], np.zeros((1, 4)))
     Between(again, len(RESPONSE)).restore({f"between.{k}": x for k, x in between.arrays().items()})
     np.testing.assert_array_equal(again.offsets, bores.offsets)
