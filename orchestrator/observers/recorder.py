@@ -142,10 +142,9 @@ class Recorder(Observer):
         now = self._now
         extremes_of(self._system.responses, now)
         errors = (None, None) if advance is None else (advance.defect, advance.of_length)
+        now[:, (DEFECT, STEP_ERROR)] = 0.0
         for column, error in zip((DEFECT, STEP_ERROR), errors, strict=True):
-            if error is None:
-                now[:, column] = 0.0
-            else:
+            if error is not None:
                 np.hypot(error[:, 0], error[:, 1], out=now[:, column])
         if advance is not None and advance.evaluated is not None:
             now[~advance.evaluated, :STEP_ERROR] = -np.inf
@@ -159,10 +158,10 @@ class Recorder(Observer):
         system = self._system
         for block in (*self._detail_blocks, self._shaft_block):
             block.get()
-        moving = {} if system.housings is None else {"housings": system.housings}
-        if moving:
+        moving = {}
+        if system.housings is not None:
             self._foundation_block.get()
-            moving["foundation"] = self._foundation_values
+            moving = {"housings": system.housings, "foundation": self._foundation_values}
         row = self.rows.add(
             times=time,
             speeds=system.speed,
