@@ -55,7 +55,7 @@ def pytest_configure(config):
         chosen = config.getoption("markexpr")
         names = [*depths.films(), *VARIANTS] if chosen != "slow" else []
         names += SLOW_VARIANTS if chosen != "not slow" else []
-        first = [name for name in names if name in ("v1", "v1-jfo", "v1-jfo-lemon", "v1-lemon")]
+        first = [name for name in names if name.startswith("v1")]
         others = [name for name in names if name not in first]
         uncounted = {name: value for name, value in os.environ.items() if name != _COUNTED}
         started = [

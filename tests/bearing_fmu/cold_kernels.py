@@ -6,6 +6,7 @@ of a depth, or of a variant, which has a kernel of its own.
 """
 
 import hashlib
+import math
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -17,19 +18,22 @@ from llvmlite import binding
 from bearing_fmu.film import make_film
 from bearing_fmu.kernels import compiled
 from bearing_fmu.parameters import BearingParameters
-from fmus.port.bore import lobes, to_text
+from fmus.port.bore import lobes, tilting, to_text
 from tests.bearing_fmu.bearings import SPEED, TURBINE
 
 BEARING = BearingParameters(0.3, 0.2, 3e-4, 0.03, 0.0, 2e-6, 1e9, 0.1, 48, 8)
 LEMON = {"bore": to_text(lobes(2, 0.5))}
+PADS = {"bore": to_text(tilting(4, math.radians(80.0), 0.2))}
 JFO = {"boundary": "jfo", "ambient_pressure": 1e5}
 VARIANTS = {
     "v1-lemon": ("v1", LEMON),
     "v2-lemon": ("v2", LEMON),
+    "v2-pads": ("v2", PADS),
 }
 SLOW_VARIANTS = {
     "v1-jfo": ("v1", JFO),
     "v1-jfo-lemon": ("v1", JFO | LEMON),
+    "v1-pads": ("v1", PADS),
     "v1-layer": ("v1", {"layer_thickness": 5e-3}),
 }
 """Of which only tests with the mark slow are."""

@@ -30,8 +30,13 @@ CASES = {
     "v3-turbulent": ("v3", TURBULENT, (0.3, -0.6, 0.0, 0.0)),
 }
 
+LONG = pytest.mark.slow  # these kernels compile for a minute
 
-@pytest.mark.parametrize(("depth", "parameters", "place"), CASES.values(), ids=CASES)
+
+@pytest.mark.parametrize(
+    ("depth", "parameters", "place"),
+    [pytest.param(*case, id=name, marks=[LONG] * ("layer" in name)) for name, case in CASES.items()],
+)
 def test_a_map_integrates_to_the_force_of_its_film(depth, parameters, place):
     units = lever(parameters)
     q, rate = np.array(place) * units, np.array([0.05, 0.02, 0.0, 0.0]) * units * SPEED
@@ -47,6 +52,7 @@ def test_a_map_integrates_to_the_force_of_its_film(depth, parameters, place):
     assert (found.pressure >= 0.0).all()
 
 
+@LONG
 def test_a_film_on_a_layer_is_led_along_the_samples():
     """A journal that approaches the wall: what the wall takes up lowers the pressure."""
     bearing = replace(LINED, columns=48, rows=8)
@@ -79,6 +85,7 @@ def test_depths_without_a_film_have_no_map():
     assert film_map("of-another-maker", {}, np.zeros(4), np.zeros(4), SPEED) is None
 
 
+@LONG
 def test_a_mass_conserving_film_holds_pressure_and_content():
     """Finite volumes, drawn by smooth functions: within some per cent; full of oil where it bears."""
     ambient = 2e5

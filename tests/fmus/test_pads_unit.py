@@ -7,6 +7,7 @@ import pytest
 from fmus import port
 from fmus.port.bore import tilting, to_text
 from tests.fmus.orbit import INPUTS, STEP, Orbit
+from tests.marks import slow
 
 OUTPUTS = [v.name for v in (*port.BEARING_OUTPUTS, *port.BEARING_DETAILS)]
 FIVE = tilting(5, math.radians(62.0), 0.2, 0.55, 0.1, 1e-10)
@@ -17,7 +18,7 @@ ORBIT = Orbit((1e-4, -2e-4), OUTPUTS)
 place, go = ORBIT.place, ORBIT.go
 
 
-@pytest.mark.parametrize("depth", ["v2", pytest.param("v1", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("depth", ["v2", slow("v1")])
 def test_pads_go_with_the_unit(hosts, depth):
     one, other = (hosts[f"bearing_{depth}.fmu"].open(name) for name in ("one", "other"))
     for unit in (one, other):

@@ -17,6 +17,7 @@ from orchestrator.ssp.export import export
 from orchestrator.ssp.structure import Component, Structure
 from orchestrator.ssp.writer import documents
 from tests.interop.tools import LAG, RARE, TOOLS, forces, missing, start
+from tests.marks import slow
 
 H = 1e-4
 ENDS = {"calm": 0.02, "fracture": 0.05}
@@ -65,6 +66,7 @@ def test_small_train_through_the_fracture(tool, exported, small, tmp_path, recor
     assert error < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tool", TOOLS)
 def test_force_only_for_the_record(tool, exported, small, tmp_path, record_property):
     """Nobody promises anything here but that a run which fails is said to have failed."""
@@ -133,6 +135,7 @@ def eleven(fmus, tmp_path_factory):
     return ssp, forces("fmpy", ssp, H, 5 * H, folder / "expected.npz")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tool", TOOLS)
 def test_eleven_bearings_of_each_depth_in_one_process(tool, eleven, tmp_path):
     """Each with a clearance of its own; all tools give the orchestrator's own unit's forces to the bit."""
@@ -160,7 +163,10 @@ def test_a_wrong_parameter_is_refused_with_its_reason_in_the_log(tool, fmus, tmp
     assert "ended without a start: bearing parameter clearance" in done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("name", ["rotor_small", "bearing_v1", "bearing_v2", "bearing_v3"])
+@pytest.mark.parametrize(
+    "name",
+    ["rotor_small", "bearing_v1", slow("bearing_v2"), slow("bearing_v3")],
+)
 def test_fmpy_simulates_each_fmu_as_it_comes(name, fmus, tmp_path):
     out = tmp_path / "out.csv"
     variables = ["amplitude.max", "bearing[1].journal.y"] if name == "rotor_small" else ["h_min", "wrench.Fy"]

@@ -46,6 +46,8 @@ STATES = {
         (0.1, 0.1, 0.0, 0.0),
     ),
 }
+REMEMBER = ("on a layer", "mass-conserving")
+LONG = pytest.mark.slow  # these kernels compile for a minute; as plain Python they run in any case
 STEP = 0.05
 """In s, of the films that remember."""
 ONLY_V1 = {"boundary", "layer_thickness"}
@@ -87,7 +89,9 @@ def plain_results(tmp_path_factory):
     return dict(zip(CASES, np.load(folder / "out.npy"), strict=True))
 
 
-@pytest.mark.parametrize("case", CASES, ids=" ".join)
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, id=" ".join(case), marks=[LONG] * (case[0] in REMEMBER)) for case in CASES]
+)
 def test_compiled_kernels_are_the_python_they_are_written_in(case, plain_results):
     state, depth = case
     settings, q, v = STATES[state]

@@ -14,6 +14,7 @@ from fmus.port.bore import from_text, tilting, to_text
 from tests.bearing_fmu.bearings import force_unit, lever, plain
 from tests.bearing_fmu.tilting.independent_pad import settled
 from tests.bearing_fmu.tilting.pads import DEG, FOUR, ROUGH, UP, at_rest, film, matrices, step
+from tests.marks import slow
 
 
 @pytest.mark.parametrize(("offset", "near"), [(0.5, 0.45), (0.6, 0.45), (0.5, 0.22)])
@@ -51,7 +52,7 @@ def test_a_centred_journal_in_preloaded_pads_is_held_alike_on_all_sides():
 
 
 @pytest.mark.parametrize("compliance", [0.0, 1e-9])
-@pytest.mark.parametrize("depth", ["v1", "v2"])
+@pytest.mark.parametrize("depth", ["v2", slow("v1")])
 def test_tangent_of_a_step_is_exact(depth, compliance):
     bearing = film(depth, to_text(tilting(4, 80.0 * DEG, 0.2, 0.55, 10.0 * DEG, compliance)), 0.7, **ROUGH)
     many = 4 if depth == "v1" else 2
@@ -170,6 +171,7 @@ def test_contact_of_pads():
         at_rest(closed, [0.0, -1.42, 0.0, 0.0])
 
 
+@pytest.mark.slow  # another kernel
 def test_pressure_of_pads_adds_up_to_their_force():
     p = plain(0.5, bore=FOUR, columns=160, rows=15)
     q = np.array([0.1, -0.5, 0.0, 0.0]) * p.clearance

@@ -8,6 +8,7 @@ import pytest
 
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
+from tests.marks import slow
 from tests.orchestrator.process import ROOT
 
 SHORT = """
@@ -27,7 +28,7 @@ CODE = "import sys; from orchestrator.cli.main import main; sys.argv[0] = 'blade
     "the run goes to its end, its results are written, exit 0",
     guard="orchestrator.cli.steadfast:Steadfast.write",
 )
-@pytest.mark.parametrize("how", ["ascii", "closed", "full"])
+@pytest.mark.parametrize("how", ["ascii", "closed", slow("full")])
 def test_what_is_said_costs_no_result(how, small_fmus, tmp_path):
     (tmp_path / "s.toml").write_text(SHORT, encoding="utf-8")
     (tmp_path / "matplotlibrc").write_text("text.usetex: True\nfont.family: nonsense\n")

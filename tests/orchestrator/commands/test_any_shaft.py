@@ -16,6 +16,7 @@ from orchestrator.outcome import INPUT_ERROR
 from orchestrator.results.record_files import read_record
 from rotor_fmu.train import writer as train_writer
 from rotor_fmu.train.file import load_train
+from tests.marks import slow
 
 COMMANDS = ("modes", "campbell", "campbell --supported", "harmonic", "reductions")
 METHODS = ("irs", "irs-plain", "guyan", "craig-bampton", "none")
@@ -119,14 +120,15 @@ def within(shafts, monkeypatch):
     return enter
 
 
-LONG_ON_FINE = ("campbell", "campbell --supported", "harmonic")
-"""Which walk over speed; that a fine mesh goes through `modes` and `reductions` is told at once."""
+pytestmark = pytest.mark.no_cover  # lines that the tests of each command run
+WALKS = ("campbell", "campbell --supported", "harmonic")
+"""Which walk over speed; that any shaft goes through `modes` and `reductions` is told at once."""
 
 
 @pytest.mark.parametrize(
     ("name", "command"),
     [
-        pytest.param(name, command, marks=[pytest.mark.slow] * (name == "fine" and command in LONG_ON_FINE))
+        slow(name, command) if name in ("four", "fine") and command in WALKS else (name, command)
         for name in (*ROWS, "fine")
         for command in COMMANDS
     ],

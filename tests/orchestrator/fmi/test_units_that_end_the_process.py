@@ -6,6 +6,7 @@ import pytest
 
 from orchestrator.results.record_files import read_record
 from tests.faults import fault
+from tests.marks import slow
 from tests.orchestrator.process import command, done
 
 SHORT = 'train = "small"\nend = 0.003\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
@@ -23,7 +24,7 @@ def run(how, faulty, small_fmus, folder):
     "exit 8, or 5 with `unit-failed`; never 0",
     guard="orchestrator.case.own_process:undisturbed",
 )
-@pytest.mark.parametrize(("how", "status"), [("os._exit", 5), ("exit", 5), ("end", 8)])
+@pytest.mark.parametrize(("how", "status"), [("os._exit", 5), slow("exit", 5), ("end", 8)])
 def test_no_success_without_results(how, status, faulty, small_fmus, tmp_path):
     code, said, errors = run(how, faulty, small_fmus, tmp_path)
     assert code == status, said + errors
@@ -58,7 +59,10 @@ with watched.command():
 """
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    "sent",
+    [signal.SIGTERM, slow(signal.SIGINT), slow(signal.SIGHUP)],
+)
 def test_signals_reach_the_run_behind_its_parent(sent, tmp_path):
     process = command(code=PARTED, cwd=tmp_path)
     assert process.stdout.readline() == "begun\n"
