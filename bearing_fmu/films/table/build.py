@@ -21,10 +21,11 @@ from fmus import port
 
 Floats = NDArray[np.float64]
 
-RADII, ANGLES = 96, 160
-"""Of a table; the numbers of `bearing_fmu/README.md` belong to them."""
+SIZES = {"guembel": (6, 144, 240), "reynolds": (3, 96, 160)}
+"""Of a table: how many times the columns of V2 it is built with, radii and angles.  The numbers of
+`bearing_fmu/FILMS.md` belong to them.  With Reynolds' condition V2 takes milliseconds, and its active set
+goes node by node on any grid."""
 
-_FINER = 3
 _LEAST = 1e-4  # gap over the clearance up to which tables of smooth surfaces are built
 _PRESSED = 3.0  # roughnesses by which surfaces overlap at a table's end
 _TRIALS = 1000
@@ -43,14 +44,17 @@ class Built:
     last : float
         Largest value of its radial coordinate.
     typical, largest : float
-        Deviation of its force from that of V2 on the same grid as a share of the force, over random states
+        Deviation of its force from that of V2 on a finer grid as a share of the force, over random states
         with gaps down to 1e-3 of the clearance: met by 99 of 100 of them, and the largest.
+    columns : int
+        Of that grid.
     """
 
     coefficients: Floats
     last: float
     typical: float
     largest: float
+    columns: int
 
     def table(self) -> Table:
         """For the kernel, with a work space of its own."""
@@ -68,7 +72,7 @@ def unit_bearing(parameters: BearingParameters) -> BearingParameters:
         viscosity=1.0 / 6.0,
         roughness=parameters.roughness / parameters.clearance,
         contact_modulus=1e-30,  # without effect, but bears a closed gap
-        columns=min(_FINER * parameters.columns, _MOST_COLUMNS),
+        columns=min(SIZES[parameters.boundary][0] * parameters.columns, _MOST_COLUMNS),
         rows=parameters.rows,
         boundary=parameters.boundary,
     )
@@ -91,8 +95,10 @@ class _Solved:
         return self._result
 
 
-def build(unit: BearingParameters, radii: int = RADII, angles: int = ANGLES) -> Built:
-    """Build the table of a `unit_bearing`."""
+def build(unit: BearingParameters, radii: int = 0, angles: int = 0) -> Built:
+    """Build the table of a `unit_bearing`, by default of its `SIZES`; half a turn, the rest is its image."""
+    _, *size = SIZES[unit.boundary]
+    radii, angles = radii or size[0], angles or size[1]
     sigma, ratio = unit.roughness, (unit.width / unit.diameter) ** 2
     most = 1.0 + _PRESSED * sigma if sigma > 0.0 else 1.0 - _LEAST
     last = narrowing(most, sigma)[1]
@@ -101,16 +107,19 @@ def build(unit: BearingParameters, radii: int = RADII, angles: int = ANGLES) -> 
     for i, a in enumerate(np.linspace(0.0, last, radii)):
         e = most if i == radii - 1 else _eccentricity(float(a), most, sigma)
         r = float(narrowing(e, sigma)[0])
-        for j, psi in enumerate(2.0 * np.pi / angles * np.arange(angles)):
+        for j, psi in enumerate(2.0 * np.pi / angles * np.arange(angles // 2 + 1)):
             q = e * np.array([np.cos(psi), np.sin(psi)])
             # the drive whose D' is 1 along x
             along, across = np.cos(psi), -np.sin(psi) / r
             drive = np.array([along * np.cos(psi) - across * np.sin(psi),
                               along * np.sin(psi) + across * np.cos(psi)])  # fmt: skip
             values[i, j] = _parts(solved(q, 0.5 * drive, 0.0), r, ratio)
+            values[i, -j] = values[i, j]
+            values[i, -j, TURN] *= -1.0 if 0 < j < angles // 2 else 1.0
     values[..., TURN] = np.unwrap(values[..., TURN], axis=1)
-    built = Built(coefficients(values, flat=sigma > 0.0), last, 0.0, 0.0)
-    typical, largest = _deviation(built, solved, sigma, ratio)
+    finer = unit if unit.boundary == "reynolds" else replace(unit, columns=_MOST_COLUMNS)
+    built = Built(coefficients(values, flat=sigma > 0.0), last, 0.0, 0.0, finer.columns)
+    typical, largest = _deviation(built, _Solved(finer), sigma, ratio)
     return replace(built, typical=typical, largest=largest)
 
 

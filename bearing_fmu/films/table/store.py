@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_fmu.films.table.build import ANGLES, RADII, Built, build, unit_bearing
+from bearing_fmu.films.table.build import SIZES, Built, build, unit_bearing
 from bearing_fmu.parameters import BearingParameters
 
 _DIGEST = hashlib.sha256().digest_size
@@ -44,8 +44,8 @@ def built_now(parameters: BearingParameters) -> str:
         return ""
     return (
         f"bearing table b/d {unit.width / unit.diameter:.3g}, roughness {unit.roughness:.2g} of the "
-        f"clearance: deviates from v2 on {unit.columns} x {unit.rows} by at most {100.0 * built.largest:.2g} "
-        f"% of the force, in 99 of 100 states by {100.0 * built.typical:.2g} %"
+        f"clearance: deviates from v2 on {built.columns} x {unit.rows} by at most "
+        f"{100.0 * built.largest:.2g} % of the force, in 99 of 100 states by {100.0 * built.typical:.2g} %"
     )
 
 
@@ -63,7 +63,7 @@ def _sources() -> str:
 @lru_cache(maxsize=64)
 def _of_unit(unit: BearingParameters) -> tuple[Built, bool]:
     """The table, and whether it was built just now."""
-    key = hashlib.sha256(json.dumps([_sources(), RADII, ANGLES, astuple(unit)]).encode()).hexdigest()[:32]
+    key = hashlib.sha256(json.dumps([_sources(), SIZES, astuple(unit)]).encode()).hexdigest()[:32]
     path = folder() / f"{key}.npy"
     kept = _read(path)
     if kept is not None:
@@ -77,7 +77,7 @@ def _of_unit(unit: BearingParameters) -> tuple[Built, bool]:
 def _write(path: Path, built: Built) -> None:
     """Write a table, whole or not at all."""
     file = io.BytesIO()
-    numbers = np.array([built.last, built.typical, built.largest])
+    numbers = np.array([built.last, built.typical, built.largest, built.columns])
     np.save(file, numbers, allow_pickle=False)
     np.save(file, built.coefficients, allow_pickle=False)
     content = file.getvalue()
@@ -100,5 +100,5 @@ def _read(path: Path) -> Built | None:
     if hashlib.sha256(content).digest() != kept[:_DIGEST]:
         return None
     file = io.BytesIO(content)
-    last, typical, largest = np.load(file, allow_pickle=False).tolist()
-    return Built(np.load(file, allow_pickle=False), last, typical, largest)
+    last, typical, largest, columns = np.load(file, allow_pickle=False).tolist()
+    return Built(np.load(file, allow_pickle=False), last, typical, largest, int(columns))

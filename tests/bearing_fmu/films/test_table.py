@@ -19,6 +19,7 @@ from bearing_fmu.films.table.store import table_of
 from bearing_fmu.result import RESULTS
 from fmus.port.bore import grooved, lobes, tilting, to_text
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, respond
+from tests.bearing_fmu.bearings import table as reference
 from tests.faults import fault
 
 RATIO = (TURBINE.width / TURBINE.diameter) ** 2
@@ -59,9 +60,9 @@ def test_splines_over_a_disc_meet_what_is_smooth_there():
     assert fine < 1e-4 and coarse > 12.0 * fine
 
 
-def test_table_is_the_aligned_film_on_a_fine_grid():
-    """Within 0.5 % of the force at any state, of what pressing journals' K and C are 1 %."""
-    fine, table = make_film("v2", replace(TURBINE, columns=144)), make_film("table", TURBINE)
+def test_table_is_the_aligned_film_on_the_finest_grid():
+    """Within 0.2 % of the force at any state, of what pressing journals' K and C are 1 %."""
+    fine, table = make_film("v2", replace(TURBINE, columns=512)), make_film("table", TURBINE)
     errors, slopes = [], []
     for q, v in journals(150):
         here, there = (respond(film, q, v, SPEED) for film in (table, fine))
@@ -71,8 +72,21 @@ def test_table_is_the_aligned_film_on_a_fine_grid():
         assert here.friction_power == pytest.approx(there.friction_power, rel=2e-3)
         assert here.p_max == pytest.approx(there.p_max, rel=0.02)
         assert (here.h_min, here.eccentricity) == (there.h_min, there.eccentricity)
-    assert np.quantile(errors, 0.95) < 2e-3 and max(errors) < 6e-3
+    assert np.quantile(errors, 0.95) < 8e-4 and max(errors) < 2e-3
     assert np.median(slopes) < 2e-3 and np.quantile(slopes, 0.9) < 0.02
+
+
+def test_table_where_runs_through_a_fracture_are_hardest():
+    """Nowhere there more than 0.05 % off the limit of V2, which its usual grid misses by up to 1.8 %."""
+    films = [make_film("v2", replace(TURBINE, columns=n)) for n in (512, 48)] + [make_film("table", TURBINE)]
+    errors = []
+    for row in reference("leaving_states.csv"):
+        q, v = ([float(row[name]) for name in names] + [0.0, 0.0] for names in (("x", "y"), ("vx", "vy")))
+        limit, usual, looked_up = (respond(film, q, v, SPEED).wrench for film in films)
+        errors.append([np.linalg.norm(f - limit) / np.linalg.norm(limit) for f in (usual, looked_up)])
+    usual, looked_up = np.array(errors).T
+    assert len(errors) > 20
+    assert looked_up.max() < 5e-4 < 1.5e-2 < usual.max() < 2e-2
 
 
 @pytest.mark.slow
@@ -95,7 +109,7 @@ def test_table_with_reynolds_condition_is_v2_with_it():
 def test_bound_is_what_is_found():
     """The deviation that a user is told, against states of its own."""
     built = table_of(TURBINE)
-    assert 0.0 < built.typical < built.largest < 6e-3
+    assert 0.0 < built.typical < built.largest < 2e-3
 
 
 def test_tangent_is_exact():
@@ -125,7 +139,7 @@ def test_turned_and_mirrored_journals():
         turned = respond(film, [*turn @ q[:2], 0.0, 0.0], [*turn @ v[:2], 0.0, 0.0], SPEED).wrench[:2]
         np.testing.assert_allclose(turned, turn @ here, rtol=1e-9, atol=1e-9 * np.linalg.norm(here))
         mirrored = respond(film, [q[0], -q[1], 0, 0], [v[0], -v[1], 0, 0], -SPEED).wrench[:2]
-        np.testing.assert_allclose(mirrored, here * [1.0, -1.0], atol=3e-3 * np.linalg.norm(here))
+        np.testing.assert_allclose(mirrored, here * [1.0, -1.0], rtol=1e-9, atol=1e-9 * np.linalg.norm(here))
 
 
 @pytest.mark.slow
@@ -198,7 +212,8 @@ def test_a_kept_table_is_read_whole_or_not_at_all(tmp_path, monkeypatch):
     kept, built_again = store._of_unit.__wrapped__(unit)
     assert was_built and not built_again
     np.testing.assert_array_equal(kept.coefficients, fresh.coefficients)
-    assert (kept.last, kept.typical, kept.largest) == (fresh.last, fresh.typical, fresh.largest)
+    told = ("last", "typical", "largest", "columns")
+    assert [getattr(kept, name) for name in told] == [getattr(fresh, name) for name in told]
     whole = bytearray(path.read_bytes())
     whole[len(whole) // 2] ^= 1
     for damaged in (b"", bytes(len(whole)), whole):
