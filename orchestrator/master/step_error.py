@@ -18,6 +18,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from orchestrator.master.compiled import compiled, dot
+
 Array = NDArray[np.float64]
 
 PASSED = 0.1
@@ -44,9 +46,19 @@ def error_of_step(start: Array, end: Array, tangent: Array, step: float) -> Arra
     -------
     ndarray (bearings, 4)
     """
-    turned = end[:, 4:] - start[:, 4:]
-    faster = (end[:, :4] - start[:, :4]) / step - 0.5 * turned - start[:, 4:]
-    missed = np.matmul(tangent[:, 0], (-0.125 * step * turned)[:, :, None])
-    missed += np.matmul(tangent[:, 1], (1.5 * faster)[:, :, None])
-    missed *= -2.0 / 3.0 * PASSED
-    return missed[:, :, 0]
+    missed = np.empty((len(start), 4))
+    _missed(start, end, tangent, step, missed)
+    return missed
+
+
+@compiled
+def _missed(start: Array, end: Array, tangent: Array, step: float, missed: Array) -> None:
+    of_position, of_velocity = np.empty(4), np.empty(4)
+    for b in range(len(missed)):
+        for j in range(4):
+            turned = end[b, 4 + j] - start[b, 4 + j]
+            of_position[j] = -0.125 * step * turned
+            of_velocity[j] = 1.5 * ((end[b, j] - start[b, j]) / step - 0.5 * turned - start[b, 4 + j])
+        for i in range(4):
+            wrench = dot(tangent[b, 0, i], of_position) + dot(tangent[b, 1, i], of_velocity)
+            missed[b, i] = wrench * (-2.0 / 3.0 * PASSED)

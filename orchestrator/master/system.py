@@ -13,6 +13,7 @@ from fmus import port
 from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph, Group
+from orchestrator.master.interface import defects, largest_relative
 from orchestrator.master.port_check import SWITCHES, check_port
 from orchestrator.master.rollback import Rollback
 
@@ -121,7 +122,6 @@ class System:
         self._friction = inputs[turned][len(SWITCHES) :]
         self._turning = Block(rotor, rotor_inputs[turned], inputs[turned])
         self._defect = np.empty((n, 4))
-        self._reaction = np.empty((n, 2, 4, 1))
         self.loads, self.levers = np.ones(n), np.ones(n)
 
     @property
@@ -176,14 +176,7 @@ class System:
 
     def relative(self, defect: Array) -> float:
         """Return the largest component of a defect against `scale`."""
-        return float(self.sizes(defect).max())
-
-    def sizes(self, defect: Array) -> Array:
-        """Return the largest component of each bearing's defect against `scale`, (bearings,)."""
-        # Without making the array of scales, which takes three times as long; this is asked at every step.
-        size = np.abs(defect)
-        forces, moments = np.maximum(size[:, 0], size[:, 1]), np.maximum(size[:, 2], size[:, 3])
-        return np.asarray(np.maximum(forces, moments / self.levers) / self._force_scale())
+        return largest_relative(defect, self.forces, self.loads, self.levers)
 
     def _force_scale(self) -> Array:
         return np.maximum(self.loads, np.hypot(self.forces[:, 0], self.forces[:, 1]))
@@ -234,11 +227,7 @@ class System:
         ndarray (bearings, 4)
             Overwritten by the next call.
         """
-        tangents = self.laws[:, 4:].reshape(-1, 2, 4, 4)
-        np.matmul(tangents, self.motion.reshape(-1, 2, 4, 1), out=self._reaction)
-        np.subtract(self.forces, self.laws[:, :4], out=self._defect)
-        self._defect += self._reaction[:, 0, :, 0]
-        self._defect += self._reaction[:, 1, :, 0]
+        defects(self.laws, self.motion, self.forces, self._defect)
         return self._defect
 
     def close(self) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
+from orchestrator.master.compiled import compiled
 from orchestrator.master.system import RESPONSE
 
 Array = NDArray[np.float64]
@@ -22,21 +25,81 @@ EXTREMES = (
 )
 """Quantities whose extremes are kept; the gaps' least, the others' largest."""
 
-_FORCE, _MOMENT, DEFECT, STEP_ERROR = (
-    EXTREMES.index(name) for name in ("force_magnitude", "moment_magnitude", "defect", "step_error")
+DEFECT = EXTREMES.index("defect")
+_OUTPUTS = np.array(
+    [RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force", "contact_pressure", "wiped")]
 )
-SCALARS = slice(EXTREMES.index("least_gap"), EXTREMES.index("wiped") + 1)
-_OUTPUTS = [
-    RESPONSE[name] for name in ("h_min", "h_min_centre", "contact_force", "contact_pressure", "wiped")
-]
-"""Bearing outputs of which the extremes in `SCALARS` are taken."""
+"""Bearing outputs of which the extremes between those of wrenches and of errors are taken."""
 SIGN = np.array([-1.0 if name.endswith("gap") else 1.0 for name in EXTREMES])
 
 
-def extremes_of(responses: Array, out: Array | None = None) -> Array:
-    """What the extremes are taken of, the larger the more extreme, (..., 9); errors are left out."""
-    now = np.full((len(responses), len(EXTREMES)), -np.inf) if out is None else out
-    np.hypot(responses[:, 0], responses[:, 1], out=now[:, _FORCE])
-    np.hypot(responses[:, 2], responses[:, 3], out=now[:, _MOMENT])
-    np.multiply(responses[:, _OUTPUTS], SIGN[SCALARS], out=now[:, SCALARS])
+def extremes_of(responses: Array) -> Array:
+    """What the extremes are taken of, the larger the more extreme, (n, 9); errors are left out."""
+    now = np.full((len(responses), len(EXTREMES)), -np.inf)
+    _take(responses, _OUTPUTS, SIGN, now)
     return now
+
+
+class Noted:
+    """The extremes of bearings since a record, and of the whole run.
+
+    Attributes
+    ----------
+    now, since, peaks : ndarray (bearings, 9)
+        Of the last step, since it was last set to minus infinity, and of all; the larger the more extreme.
+    times : ndarray (bearings, 9)
+        Instants of `peaks` in s.
+    """
+
+    def __init__(self, bearings: int) -> None:
+        self.now = np.empty((bearings, len(EXTREMES)))
+        self.since, self.peaks = np.full_like(self.now, -np.inf), np.full_like(self.now, -np.inf)
+        self.times = np.zeros_like(self.now)
+        self._nothing, self._all = np.zeros((bearings, 4)), np.ones(bearings, dtype=bool)
+
+    def note(
+        self,
+        time: float,
+        responses: Array,
+        defect: Array | None = None,
+        of_length: Array | None = None,
+        evaluated: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Take a step: outputs of bearings, errors (bearings, 4), and who was evaluated, by default all."""
+        defect, of_length = (self._nothing if error is None else error for error in (defect, of_length))
+        whose = self._all if evaluated is None else evaluated
+        _take(responses, _OUTPUTS, SIGN, self.now)
+        _note(time, defect, of_length, whose, self.now, self.since, self.peaks, self.times)
+
+
+@compiled
+def _take(responses: Array, outputs: NDArray[np.intp], sign: Array, now: Array) -> None:
+    for b in range(len(now)):
+        now[b, 0] = math.hypot(responses[b, 0], responses[b, 1])
+        now[b, 1] = math.hypot(responses[b, 2], responses[b, 3])
+        for k in range(len(outputs)):
+            now[b, 2 + k] = responses[b, outputs[k]] * sign[2 + k]
+
+
+@compiled
+def _note(
+    time: float,
+    defect: Array,
+    of_length: Array,
+    evaluated: NDArray[np.bool_],
+    now: Array,
+    since: Array,
+    peaks: Array,
+    times: Array,
+) -> None:
+    last = now.shape[1] - 1
+    for b in range(len(now)):
+        now[b, last - 1] = math.hypot(defect[b, 0], defect[b, 1])
+        now[b, last] = math.hypot(of_length[b, 0], of_length[b, 1])
+        if not evaluated[b]:
+            now[b, :last] = -math.inf
+        for k in range(last + 1):
+            if now[b, k] > since[b, k] or math.isnan(now[b, k]):
+                since[b, k] = now[b, k]
+            if now[b, k] > peaks[b, k]:
+                peaks[b, k], times[b, k] = now[b, k], time

@@ -27,7 +27,7 @@ from orchestrator.master.start.pads import tilts
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.system import RESPONSE, System
 from orchestrator.observers.between import Between, Bores
-from orchestrator.observers.extremes import DEFECT, EXTREMES, SIGN, STEP_ERROR, extremes_of
+from orchestrator.observers.extremes import DEFECT, EXTREMES, SIGN, Noted, extremes_of
 from orchestrator.observers.rows import Rows
 
 Array = NDArray[np.float64]
@@ -105,24 +105,21 @@ class Recorder(Observer):
         self._foundation_values = np.empty((moving, len(port.FOUNDATION)))
         on_foundation = [port.at_bearing(i, name) for i in range(1, moving + 1) for name in port.FOUNDATION]
         self._foundation_block = Block(system.rotor, on_foundation, self._foundation_values.reshape(-1))
-        self._now = np.empty((bearings, len(EXTREMES)))
-        self._since = np.full_like(self._now, -np.inf)
-        self._peaks = np.full_like(self._now, -np.inf)
-        self.peak_times = np.zeros_like(self._now)
+        self._noted = Noted(bearings)
         self._shaft_values = np.empty(len(SHAFT) + len(FIELDS) * nodes)
         names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
         self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
 
     def begin(self, stepper: Stepper) -> None:
         """Keep the start."""
-        self._note(0.0, None)
+        self._noted.note(0.0, self._system.responses)
         self.record(0, 0.0, stepper)
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Note the extremes of the system as it stands after a step, and complete records that waited."""
         done = advance.evaluated
         self._whole = done is None or bool(done.all())
-        self._note(end, advance)
+        self._noted.note(end, self._system.responses, advance.defect, advance.of_length, done)
         if done is not None:
             told = self._told, lambda: self._system.motion
             if self._between.evaluated(done, end, self.rows.held, *told) > _TOGETHER:
@@ -138,22 +135,6 @@ class Recorder(Observer):
         if self._whole and 0.0 <= self._newest < time and not self._system.rotor.failed:
             self._keep(time)
 
-    def _note(self, time: float, advance: Advance | None) -> None:
-        now = self._now
-        extremes_of(self._system.responses, now)
-        errors = (None, None) if advance is None else (advance.defect, advance.of_length)
-        now[:, (DEFECT, STEP_ERROR)] = 0.0
-        for column, error in zip((DEFECT, STEP_ERROR), errors, strict=True):
-            if error is not None:
-                np.hypot(error[:, 0], error[:, 1], out=now[:, column])
-        if advance is not None and advance.evaluated is not None:
-            now[~advance.evaluated, :STEP_ERROR] = -np.inf
-        np.maximum(self._since, now, out=self._since)
-        higher = now > self._peaks
-        if higher.any():
-            self._peaks[higher] = now[higher]
-            self.peak_times[higher] = time
-
     def _keep(self, time: float) -> None:
         system = self._system
         for block in (*self._detail_blocks, self._shaft_block):
@@ -168,14 +149,14 @@ class Recorder(Observer):
             journals=system.journals,
             responses=system.responses[:, _KEPT],
             details=self._details_now,
-            extremes=self._since * SIGN,
+            extremes=self._noted.since * SIGN,
             shaft=self._shaft_values[: len(SHAFT)],
             fields=self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1),
             **moving,
         )
-        self._since[:] = -np.inf
+        self._noted.since[:] = -np.inf
         self._newest = time
-        waits = np.zeros(len(self._now), dtype=bool) if self._whole else self._between.stands < time
+        waits = np.zeros(len(system.bearings), dtype=bool) if self._whole else self._between.stands < time
         self._between.kept(row, waits, self._told, system.stands_at)
 
     def _told(self) -> Array:
@@ -201,9 +182,10 @@ class Recorder(Observer):
         extremes[:, DEFECT] = np.maximum(extremes[:, DEFECT], 0.0)
         extremes = np.maximum(extremes, extremes_of(values))
         kept["extremes"][rows, bearing] = extremes * SIGN
+        noted = self._noted
         for row, b, found_there in zip(rows, bearing, extremes, strict=True):
-            higher = found_there > self._peaks[b]
-            self._peaks[b, higher], self.peak_times[b, higher] = found_there[higher], kept["times"][row]
+            higher = found_there > noted.peaks[b]
+            noted.peaks[b, higher], noted.times[b, higher] = found_there[higher], kept["times"][row]
 
     @property
     def size(self) -> int:
@@ -220,7 +202,7 @@ class Recorder(Observer):
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that is here, by name; views."""
         self._fill()
-        whole = {"since": self._since, "peaks": self._peaks, "peak_times": self.peak_times}
+        whole = {"since": self._noted.since, "peaks": self._noted.peaks, "peak_times": self._noted.times}
         whole |= {"newest": np.array(self._newest)} | self.rows.arrays()
         return whole | {f"between.{k}": x for k, x in self._between.arrays().items()}
 
@@ -228,8 +210,8 @@ class Recorder(Observer):
         """Go on from what `arrays` returned."""
         self.rows.restore(arrays)
         self._between.restore(arrays)
-        self._since[:], self._peaks[:] = arrays["since"], arrays["peaks"]
-        self.peak_times[:] = arrays["peak_times"]
+        self._noted.since[:], self._noted.peaks[:] = arrays["since"], arrays["peaks"]
+        self._noted.times[:] = arrays["peak_times"]
         self._newest = float(arrays["newest"])
 
     def copy(self) -> Recorder:
@@ -240,7 +222,7 @@ class Recorder(Observer):
     @property
     def between(self) -> float:
         """Share of what bearings tell in all records that lies between two evaluations."""
-        return self._between.filled / max(1, (self.rows.forgotten + self.size) * len(self._now))
+        return self._between.filled / max(1, (self.rows.forgotten + self.size) * len(self._system.bearings))
 
     @property
     def times(self) -> Array:
@@ -288,7 +270,12 @@ class Recorder(Observer):
     def peaks(self) -> Array:
         """Extremes of the whole run, (bearings, 9)."""
         self._fill()
-        return self._peaks * SIGN
+        return self._noted.peaks * SIGN
+
+    @property
+    def peak_times(self) -> Array:
+        """Their instants in s, (bearings, 9)."""
+        return self._noted.times
 
     def shaft(self, name: str) -> Array:
         """Rotor output `name`, one of `SHAFT`, (records,)."""

@@ -126,7 +126,8 @@ class Multirate:
         known.due_at(end, own, common, *given, moved, due)
         room.tangents[:] = tangents
         self._evaluate(system, np.flatnonzero(due).tolist(), rates[:, STANDS].tolist(), time, step)
-        known.defects(wrenches, system.laws, motion, due, room.defect)
+        room.defect[:] = system.defect()
+        room.defect[~due] = 0.0
         self._measure(system, room.size, step)
         largest, answered = known.relative(
             time,

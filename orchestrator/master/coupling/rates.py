@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.master.coupling.compiled import compiled, inlined
+from orchestrator.master.compiled import compiled, inlined
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -198,20 +198,6 @@ def due_at(
             or end - rates[b, STANDS] >= _WHOLE * rates[b, INTERVAL]
             or bend * moved[b] ** 2 > tolerance
         )
-
-
-@compiled
-def defects(wrenches: Array, laws: Array, motion: Array, due: Mask, defect: Array) -> None:
-    """Overwrite defects, (n, 4), with F(q, v) - (F0 - K q - C v) of the laws used; 0 of those not due."""
-    for b in range(len(due)):
-        for i in range(4):
-            defect[b, i] = 0.0
-            if due[b]:
-                reaction = 0.0
-                for part in range(2):
-                    for j in range(4):
-                        reaction += laws[b, 4 + 16 * part + 4 * i + j] * motion[b, 4 * part + j]
-                defect[b, i] = wrenches[b, i] - laws[b, i] + reaction
 
 
 @compiled

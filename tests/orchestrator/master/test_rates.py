@@ -5,9 +5,8 @@ import pytest
 
 from orchestrator.master.coupling import rates as known
 from orchestrator.master.coupling.rates import BEFORE, BEND, CALM, INTERVAL, KNOWN, LINEAR, SIZE, SPAN, STANDS
-from orchestrator.master.system import law_wrenches
 
-SCALARS = ("bend_on", "due_at", "defects", "relative", "intervals_after")
+SCALARS = ("bend_on", "due_at", "relative", "intervals_after")
 
 
 @pytest.fixture(params=["compiled", "as it stands"])
@@ -98,16 +97,6 @@ def test_a_step_answers_for_bearings_that_stand_at_its_start_and_once_for_others
     assert found(0.4) == (pytest.approx(0.8), pytest.approx(0.5))
     defect[0, 0] = np.nan
     assert np.isnan(known.relative(1.0, 1.0, defect, levers, size, table, again, np.zeros(3), again)).all()
-
-
-@both_ways
-def test_a_defect_is_what_the_law_has_missed():
-    rng = np.random.default_rng(1)
-    wrenches, laws, motion = (rng.normal(size=(3, n)) for n in (4, 36, 8))
-    defect = np.full((3, 4), np.nan)
-    known.defects(wrenches, laws, motion, np.array([True, True, False]), defect)
-    missed = wrenches - law_wrenches(laws, motion)
-    np.testing.assert_allclose(defect, np.where([[1], [1], [0]], missed, 0.0), rtol=1e-12)
 
 
 def bent_law(wrench, tangent, before, ratio, where):
