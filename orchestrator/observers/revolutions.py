@@ -31,7 +31,9 @@ EXTREMES = ("least_gap", "contact_force", "force")
 """Of a revolution, at the ends of its steps: the least, and the largest two."""
 _GAP, _CONTACT = RESPONSE["h_min"], RESPONSE["contact_force"]
 _TURN = 2.0 * math.pi
-_GOING_ON = ("before", "sum", "last", "range", "most")
+_CHUNK = 64
+"""Instants that are added up in one go."""
+_GOING_ON = ("sum", "last", "range", "most", "angles", "motions", "values")
 """Those of the revolution that is going on."""
 
 
@@ -64,53 +66,64 @@ class Revolutions(Observer):
         )
         # of the revolution that is going on
         self._angle = self._began = 0.0
-        self._before = np.zeros((n, 2))
         self._sum = np.zeros((len(ORDERS), n, 2), dtype=complex)
         self._last = np.full_like(self._sum, np.nan)
         self._signs = np.exp(1j * _TURN * self._orders).real[:, None, None]
         self._range = np.zeros((2, n, 2))
-        self._most, self._values = np.zeros((n, len(EXTREMES))), np.zeros((n, len(EXTREMES)))
+        self._most = np.zeros((n, len(EXTREMES)))
+        # its instants that are not added up yet; the first is the last of those that are
+        self._held = 0
+        self._angles, self._motions = np.zeros(_CHUNK), np.zeros((_CHUNK, n, 2))
+        self._values = np.zeros((_CHUNK, n, len(EXTREMES)))
 
     def begin(self, stepper: Stepper) -> None:
         """Take the start of the run."""
-        self._before[:] = self._system.motion[:, :2]
-        self._renew()
+        self._renew(0.0, self._system.motion[:, :2])
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Add a step."""
         motion = self._system.motion[:, :2]
         first = self._angle
         last = first + abs(self._system.speed) * (end - start)
-        if last < _TURN:
-            self._add(first, last, self._before, motion)
-        else:
+        if last >= _TURN:
             share = (_TURN - first) / (last - first)
-            between = self._before + share * (motion - self._before)
-            self._add(first, _TURN, self._before, between)
+            before = self._motions[self._held - 1]
+            between = before + share * (motion - before)
+            self._hold(_TURN, between)
             self._close(start + share * (end - start))
             last -= _TURN
-            self._before[:] = between
-            self._renew()
-            self._add(0.0, last, between, motion)
+            self._renew(0.0, between)
+        self._hold(last, motion)
         self._angle = last
-        self._before[:] = motion
 
-    def _add(self, first: float, last: float, before: Array, after: Array) -> None:
-        turned = 0.5 * (last - first)
-        for angle, motion in ((first, before), (last, after)):
-            self._sum += (turned * np.exp(-1j * self._orders * angle))[:, None, None] * motion
-        np.minimum(self._range[0], after, out=self._range[0])
-        np.maximum(self._range[1], after, out=self._range[1])
-        np.maximum(self._most, self._now(), out=self._most)
+    def _hold(self, angle: float, motion: Array) -> None:
+        if self._held == _CHUNK:
+            self._add()
+        k = self._held
+        self._angles[k], self._motions[k] = angle, motion
+        responses, forces, values = self._system.responses, self._system.forces, self._values[k]
+        np.negative(responses[:, _GAP], out=values[:, 0])
+        values[:, 1] = responses[:, _CONTACT]
+        np.hypot(forces[:, 0], forces[:, 1], out=values[:, 2])
+        self._held = k + 1
 
-    def _now(self) -> Array:
-        responses, forces, now = self._system.responses, self._system.forces, self._values
-        np.negative(responses[:, _GAP], out=now[:, 0])
-        now[:, 1] = responses[:, _CONTACT]
-        np.hypot(forces[:, 0], forces[:, 1], out=now[:, 2])
-        return now
+    def _add(self) -> None:
+        angles, motions = self._angles[: self._held], self._motions[: self._held]
+        halves = 0.5 * np.diff(angles)
+        weights = np.zeros_like(angles)
+        weights[:-1] += halves
+        weights[1:] += halves
+        factors = weights * np.exp(-1j * self._orders[:, None] * angles)
+        self._sum += np.tensordot(factors, motions, 1)
+        np.minimum(self._range[0], motions.min(axis=0), out=self._range[0])
+        np.maximum(self._range[1], motions.max(axis=0), out=self._range[1])
+        np.maximum(self._most, self._values[: self._held].max(axis=0), out=self._most)
+        for kept in (self._angles, self._motions, self._values):
+            kept[0] = kept[self._held - 1]
+        self._held = 1
 
     def _close(self, time: float) -> None:
+        self._add()
         self.rows.add(
             times=time,
             speeds=_TURN / (time - self._began),
@@ -122,22 +135,24 @@ class Revolutions(Observer):
         self._last[:] = self._sum
         self._began = time
 
-    def _renew(self) -> None:
-        self._sum[:] = 0.0
-        self._range[:] = self._before
-        self._most[:] = self._now()
+    def _renew(self, angle: float, motion: Array) -> None:
+        self._sum[:], self._most[:] = 0.0, -np.inf
+        self._range[0], self._range[1] = np.inf, -np.inf
+        self._held = 0
+        self._hold(angle, motion)
 
     def arrays(self) -> dict[str, NDArray[Any]]:
         """All that it holds, by name."""
         now = {name: getattr(self, f"_{name}") for name in _GOING_ON}
-        return {**self.rows.arrays(), **now, "turn": np.array([self._angle, self._began])}
+        return {**self.rows.arrays(), **now, "turn": np.array([self._angle, self._began, self._held])}
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what `arrays` returned."""
         self.rows.restore(arrays)
         for name in _GOING_ON:
             getattr(self, f"_{name}")[:] = arrays[name]
-        self._angle, self._began = arrays["turn"].tolist()
+        self._angle, self._began, held = arrays["turn"].tolist()
+        self._held = int(held)
 
     @property
     def times(self) -> Array:

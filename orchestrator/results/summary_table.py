@@ -204,7 +204,7 @@ class _Column:
 
 def _columns(summary: RunSummary) -> list[_Column]:
     force = FORCE.fitting(max(row.force_max for row in summary.bearings))
-    moment = MOMENT.fitting(max(row.moment_max for row in summary.bearings))
+    moment = MOMENT.fitting(max(row.moment_max for row in summary.bearings) or 1.0 / force.factor)
 
     def contact(shown: Callable[[BearingStatistics], str]) -> Callable[[BearingStatistics], str]:
         return lambda row: "-" if row.contact_first is None else shown(row)

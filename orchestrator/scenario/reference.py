@@ -61,7 +61,7 @@ _TRAIN: tuple[tuple[str, type[BaseModel], tuple[type, ...]], ...] = (
     ("coupling.", CouplingEntry, (Coupling, Joint)),
 )
 """Tables of train.toml, and the classes whose docstrings tell what their keys are."""
-_OWN_WORDS = {
+_OWN_WORDS = {  # of a key in any table, or in one
     "shaft": "Name of the table of shoulders beside the file.",
     "z": "Axial position.",
     "name": "1 to 40 letters, digits, spaces, points, hyphens and underscores.",
@@ -74,8 +74,15 @@ _OWN_WORDS = {
     "pockets": "Pockets and feed holes, `[{at, width, share, depth, fed}]`; see `bearing_fmu`.",
     "grooves": "Axial grooves, `[{at, width}]`.",
     "arcs": "Arcs of any bore, `[{start, end, preload, towards}]`.",
-    "stiffness": "In place of a film: a number, or 2 x 2 or 4 x 4.",
-    "damping": "Beside `stiffness`, likewise; of the train: the table `damping`.",
+    "bearing.stiffness": "In place of a film: a number, or 2 x 2 or 4 x 4.",
+    "bearing.damping": "Beside `stiffness`, likewise.",
+    "damping": "Of the shaft: the keys below.",
+    "bearing.pedestal.mass": "In x and in y, or one number for both.",
+    "bearing.pedestal.stiffness": "To firm ground, likewise.",
+    "bearing.pedestal.damping": "Likewise.",
+    "bearing.pedestal.inertia": "About x and y; without it, or without `tilt_stiffness`, it does not tilt.",
+    "bearing.pedestal.tilt_stiffness": "About x and about y, or one number for both.",
+    "bearing.pedestal.tilt_damping": "Likewise.",
     "table": "In place of a film: name of a table of stiffness and damping over speed.",
     "oil": "In place of `viscosity`: a grade of ISO 3448, as `VG 46`; the film finds its temperature.",
     "viscosity_index": "Of the grade, after ISO 2909; 95 by itself.",
@@ -121,7 +128,8 @@ def train_reference() -> str:
             if isinstance(field.default, list) and name in ("bearing", "wheel", "mass", "coupling"):
                 continue
             default = "*must be given*" if field.is_required() else _shown(field.get_default())
-            cells = f"`{prefix}{name}`", unit_of(model, name), _allowed(field), default, texts.get(name, "")
+            words = _OWN_WORDS.get(prefix + name) or texts.get(name, "")
+            cells = f"`{prefix}{name}`", unit_of(model, name), _allowed(field), default, words
             lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 

@@ -14,6 +14,9 @@ BOTH, STIFFNESS, MASS = "both", "stiffness", "mass"
 COUNTS = (BOTH, STIFFNESS, MASS)
 """What a ring counts for."""
 
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)
+_OVER_LENGTH = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS  # exact to degree 5; the inertia of a cone has 4
+
 
 @dataclass(frozen=True)
 class Material:
@@ -206,12 +209,11 @@ class Shoulder:
     @property
     def polar_inertia(self) -> float:
         """About the axis [kg m2]; cones exactly, by Gauss's rule."""
-        points, weights = np.polynomial.legendre.leggauss(3)
         fourth = sum(
             weight * ring.material.density * (ring.outer(share) ** 4 - ring.inner(share) ** 4)
             for ring in self.rings
             if ring.heavy
-            for share, weight in zip(0.5 * (points + 1.0), 0.5 * weights, strict=True)
+            for share, weight in zip(*_OVER_LENGTH, strict=True)
         )
         return float(math.pi / 32.0 * fourth * self.length)
 

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter
 
 from orchestrator.results import statistics
-from orchestrator.results.figures import style
+from orchestrator.results.figures import panels, style
 from orchestrator.results.journals import probes_of
 from orchestrator.results.revolutions import NAME, order_of
 from orchestrator.results.windows import changing_speed
@@ -69,10 +69,12 @@ def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Fig
             worst = int(np.nanargmin(gap))
             text = f"{gap[worst]:.1f} \u00b5m at {speed[worst]:.0f} rev/min"
             gaps.annotate(text, (speed[worst], gap[worst]), xytext=(6, 6), textcoords="offset points",
-                          fontsize=style.FONT - 2, color=colour)  # fmt: skip
+                          fontsize=style.FONT - 2, color=colour, bbox=panels.PAPER)  # fmt: skip
             gaps.plot(speed[worst], gap[worst], "o", color=colour, markersize=4)
     degrees = math.degrees(probes_of(records[0])[0])
     sizes.yaxis.set_major_formatter(_PLAIN)
+    top = float(sizes.dataLim.ymax)
+    sizes.set_ylim(max(float(sizes.dataLim.ymin), 1e-4 * top), 2.0 * top)
     sizes.set_ylabel(f"amplitude at {degrees:.0f}\u00b0 [\u00b5m]")
     phase.set_ylabel("phase of 1X [\u00b0]")
     phase.set_ylim(-180.0, 180.0)
@@ -80,6 +82,12 @@ def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Fig
     gaps.set_ylabel("least gap in a turn [\u00b5m]")
     gaps.axhline(0.0, color=style.CONTACT, linewidth=0.8)
     contacts.set_ylabel("contact force [kN]")
+    if contacts.dataLim.ymax > 0.0:
+        contacts.set_ylim(bottom=0.0)
+    else:
+        contacts.set_ylim(0.0, 1.0)
+        contacts.set_yticks([0.0])
+        contacts.text(0.5, 0.5, "no contact", transform=contacts.transAxes, ha="center", va="center")
     contacts.set_xlabel("speed of rotation [rev/min]")
     for axes in (sizes, phase, gaps, contacts):
         style.dress(axes)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 BEFORE_REVOLUTIONS = 2.0
 AFTER_REVOLUTIONS = 6.0
-_PAPER: dict[str, Any] = {
+PAPER: dict[str, Any] = {
     "boxstyle": "round,pad=0.15",
     "facecolor": "white",
     "edgecolor": "none",
@@ -137,14 +137,17 @@ def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = Tru
     """Mark the events."""
     schedule = from_attributes(record.attrs)
     seen = [event for event in instants(record) if view.start <= event <= view.end]
-    upright = len(seen) > _SIDE_BY_SIDE
+    words = {
+        event: ", ".join(dict.fromkeys(one.label for one in schedule.events if one.time == event))
+        for event in seen
+    }
+    upright = len(seen) > _SIDE_BY_SIDE or _crowded(axes, view, words)
     for event in seen:
         shown = view.shown(event)
         axes.axvline(shown, color=style.EVENT, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1.5)
         if named:
-            labels = dict.fromkeys(one.label for one in schedule.events if one.time == event)
             axes.annotate(
-                ", ".join(labels),
+                words[event],
                 (shown, 1.0),
                 xycoords=("data", "axes fraction"),
                 xytext=(-3, -2),
@@ -155,6 +158,18 @@ def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = Tru
                 color=style.EVENT,
                 rotation=90.0 if upright else 0.0,
             )
+
+
+def _crowded(axes: Axes, view: View, words: dict[float, str]) -> bool:
+    """Whether a name is wider than what lies before its event, to the event or the axis before it."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    width = axes.get_position().width * float(figure.get_size_inches()[0])  # inches
+    starts = [view.start, *words][: len(words)]
+    return any(
+        _LETTER * len(text) > (event - start) / (view.end - view.start) * width
+        for start, (event, text) in zip(starts, words.items(), strict=True)
+    )
 
 
 def draw_means(
@@ -204,7 +219,7 @@ def mark(
         ha="right" if left else "left",
         va="top" if below else "bottom",
         fontsize=style.FONT - 1,
-        bbox=_PAPER,
+        bbox=PAPER,
         zorder=6,
     )
 
@@ -245,7 +260,7 @@ def scale_panels(
         if ceiling is not None and largest > high and np.isfinite(largest):
             text = f"▲ cut off, up to {largest:.3g}"
             place: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top"}
-            axes.annotate(text, (0.995, 0.98), **place, fontsize=style.FONT - 2, zorder=6, bbox=_PAPER)
+            axes.annotate(text, (0.995, 0.98), **place, fontsize=style.FONT - 2, zorder=6, bbox=PAPER)
 
 
 def _legend_columns(figure: Figure, labels: Sequence[str]) -> int:

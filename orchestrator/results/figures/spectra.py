@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MICRO = 1e6
+_FLOOR = journals.FLOOR * MICRO
 _DECADES = 5.0
 _PLAIN = FuncFormatter(lambda value, _: f"{value:g}")
 _BEFORE, _LASTING = "#666666", "#0072B2"
@@ -56,7 +57,7 @@ def spectra(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figure
                 found = journals.probe_spectrum(time, motion, angle, window, turn, speeds[row])
                 if found is None:
                     continue
-                amplitude = np.maximum(found.amplitude, journals.FLOOR) * MICRO
+                amplitude = np.maximum(found.amplitude * MICRO, _FLOOR)
                 before, last = phase.name == "before", phase is every[-1]
                 dash = "--" if before else "-" if last else ":"
                 look = {"color": _BEFORE if before else _LASTING, "linestyle": dash}
@@ -100,7 +101,8 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         motion, angle = journal_motion(record, bearing), journals.probes_of(record)[0]
         found.append(journals.probe_waterfall(time, motion, angle, _turn(record)))
     top = max((float(fall.amplitude.max()) for fall in found if fall is not None), default=0.0) * MICRO
-    norm = LogNorm(max(top, 1e-3) * 1e-4, max(top, 1e-3), clip=True)
+    top = max(top, 10.0 * _FLOOR)
+    norm = LogNorm(max(1e-4 * top, _FLOOR), top, clip=True)
     mesh = None
     for axes, record, fall in zip(grid, records, found, strict=True):
         if fall is None or fall.time is None:
@@ -112,10 +114,11 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
                 ha="center",
             )
             continue
-        values = np.maximum(fall.amplitude, journals.FLOOR) * MICRO
+        values = np.maximum(fall.amplitude * MICRO, _FLOOR)
         look = {"norm": norm, "cmap": "viridis", "shading": "nearest", "rasterized": True}
         mesh = axes.pcolormesh(fall.frequency, fall.time, values, **look)
         _draw_orders(axes, record)
+        axes.set_ylim(fall.time[0], fall.time[-1])
         panel = f"{style.row_prefix(records, record, bearing)}probe at "
         angle = math.degrees(journals.probes_of(record)[0])
         axes.set_title(f"{panel}{angle:.0f}°\n", loc="left", fontsize=style.FONT)

@@ -9,6 +9,9 @@ from enum import StrEnum
 from orchestrator.results.quantities import shown
 from orchestrator.results.verdicts.verdict import Grade, Verdict, worst
 
+_ONLY = ("all", "after")
+"""Phases that need no word: there is no other after an event."""
+
 
 class Action(StrEnum):
     """What is done with the machine."""
@@ -57,10 +60,16 @@ def action_of(verdicts: Iterable[Verdict]) -> Action:
 
 
 def _grounds(verdicts: Iterable[Verdict]) -> str:
-    """The figures that a conclusion rests on, in a line."""
-    return "; ".join(
-        f"{v.limit} {shown(v.value, v.quantity)} at {v.place}"
-        + (f" against {v.bound_text()}" if v.bound > 0.0 else f" ({v.note})")
-        for v in verdicts
-        if v.grade is Grade.BEYOND
-    )
+    """The figures that a conclusion rests on, in a line; of each limit the phase in which it is used most."""
+    beyond: dict[str, Verdict] = {}
+    for one in verdicts:
+        if one.grade is Grade.BEYOND:
+            beyond.setdefault(one.limit, one)
+    return "; ".join(map(_ground, beyond.values()))
+
+
+def _ground(found: Verdict) -> str:
+    when = "" if found.phase in _ONLY else f", {found.phase}"
+    against = f" against {found.bound_text()}" if found.bound > 0.0 else ""
+    note = f" ({found.note})" if found.note and not against else ""
+    return f"{found.limit} {shown(found.value, found.quantity)} at {found.place}{when}{against}{note}"

@@ -1,6 +1,7 @@
 """Verdicts: figures of a record with known statistics against limits."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -76,6 +77,13 @@ def test_contact_has_no_allowance_and_trips(verdicts):
     assert not [v for v in verdicts if v.limit == "solid contact" and v.phase == "before"]
     found = conclude(verdicts)
     assert found.action is Action.TRIP and found.grounds.startswith("solid contact")
+    assert found.grounds.count("shaft vibration") == 1
+
+
+def test_a_conclusion_names_each_limit_once_with_the_phase_of_its_worst(verdicts):
+    found = one(verdicts, "solid contact", "after", "LP2-front")
+    both = (replace(found, phase="after 1", value=1e6), replace(found, phase="after 2", value=3e6))
+    assert conclude(both).grounds == f"solid contact 3.00 MN at LP2-front, after 2 ({found.note})"
 
 
 def test_vibration_is_the_largest_peak_to_peak_at_a_probe_in_its_zone(verdicts, record):
