@@ -66,8 +66,11 @@ def compare(
         int | None, typer.Option(metavar="N", min=1, help="Runs at the same time; by default one a core.")
     ] = None,
     check: Annotated[
-        bool, typer.Option("--check", help="Repeat with a finer film and a smaller step.")
+        bool, typer.Option("--check", help="Repeat with finer films and smaller steps.")
     ] = False,
+    doublings: Annotated[
+        int, typer.Option(metavar="N", min=1, max=3, help="How often --check doubles and halves.")
+    ] = 2,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Results; by default results/<SCENARIO>-compare.")
     ] = None,
@@ -90,7 +93,15 @@ def compare(
         overrides = {key: value for key, value in given.items() if value is not None}
         depths = tuple(map(str, depth or ()))
         request = CompareRequest(
-            scenario, overrides, out, fmus or fmu_folder(), depths, jobs, check, formats, budget
+            scenario,
+            overrides,
+            out,
+            fmus or fmu_folder(),
+            depths,
+            jobs,
+            doublings if check else 0,
+            formats,
+            budget,
         )
         return run(request, Console(), Console(stderr=True))
 

@@ -30,12 +30,12 @@ from orchestrator.scenario.file import load_scenario, train_of
 from orchestrator.scenario.problems import record_size
 from orchestrator.study.children import COMMAND
 from orchestrator.study.compare import COMPARED, Means, fitting, refine, run_depths
-from orchestrator.study.comparison import settings_of
+from orchestrator.study.comparison import Comparison, settings_of
 from orchestrator.study.paper.report import PaperReport, speaks_of
 from orchestrator.study.report import Report
 
 CHECK = "check"
-"""Folder of the runs at the finer resolution."""
+"""Folder of the runs at finer resolutions."""
 SIGN = "comparison.json"
 """File by which an earlier comparison is known."""
 _OURS = ("comparison.txt", SIGN, "comparison.csv", COMPARED, *registry.names(), CHECK, FIGURES, PARTIAL)
@@ -59,8 +59,8 @@ class CompareRequest:
         To be compared; empty: all that solve a film.
     jobs : int or None
         Runs at the same time; None: one a core.
-    check : bool
-        Repeat with twice the film resolution and half the macro step.
+    doublings : int
+        How often everything is repeated, each time with twice the film resolution and half the macro step.
     formats : sequence of str
         File types of the figures; none for no figures.
     budget : float
@@ -73,7 +73,7 @@ class CompareRequest:
     fmus: Path = field(default_factory=fmu_folder)
     depths: Sequence[str] = ()
     jobs: int | None = None
-    check: bool = False
+    doublings: int = 0
     formats: Sequence[str] = ("png",)
     budget: float = BUDGET
 
@@ -104,14 +104,16 @@ def run(
         For anything wrong with the input; nothing is written then.
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
-    refined = refine(scenario) if request.check else None
+    refined = [scenario]
+    for _ in range(request.doublings):
+        refined.append(refine(refined[-1]))
     train = train_of(scenario)
     asked = request.depths or fitting(scenario, train, console)
     depths = [depth for depth in registry.names() if depth in asked]
     folder = named(request.out) if request.out else Path("results") / f"{Path(request.source).stem}-compare"
     for place in (folder, partial_folder(folder)):
         check_folder(place, SIGN, _OURS)
-    check_room(folder, sum(record_size(one, train) for one in (scenario, refined) if one) * len(depths))
+    check_room(folder, sum(record_size(one, train) for one in refined) * len(depths))
     ensure_fmus(request.fmus, train, depths, console)
     means = Means(request.fmus, request.jobs, request.budget, command)
     with (
@@ -120,12 +122,15 @@ def run(
     ):
         runs = Path(made)
         found, records = run_depths(scenario, train, depths, runs, means, console)
-        fine = None
-        if refined is not None and found.complete:
-            console.print(f"Check with {settings_of(refined).text()}", highlight=False)
-            fine, _ = run_depths(refined, train, depths, runs / CHECK, means, console)
+        fine: list[Comparison] = []
+        for one in refined[1:]:
+            if all(done.complete for done in (found, *fine)):
+                text = settings_of(one).text()
+                console.print(f"Check with {text}", highlight=False)
+                place = runs / CHECK / f"{one.film.columns}x{one.film.rows}"
+                fine.append(run_depths(one, train, depths, place, means, console)[0])
         report = (PaperReport if speaks_of(scenario, depths) else Report)(found, fine)
-        failed = [item for one in (found, fine) if one for item in one.ended.items() if not item[1].ok]
+        failed = [item for one in (found, *fine) for item in one.ended.items() if not item[1].ok]
         status = failed[0][1].status if failed else 0
         target = partial_folder(folder) if failed else folder
 

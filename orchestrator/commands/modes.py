@@ -121,8 +121,9 @@ def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
             seat.name,
         )
     table.caption = (
-        "Shaft bends: its share in the strain of the mode, the rest is that of the bearings; near 0 % it "
-        "moves on its films as a rigid body, in oil whirl at about half the speed of rotation."
+        "Shaft bends: its share in the strain of the mode, the rest is that of the bearings and of what "
+        "they stand on; near 0 % it moves on them as a rigid body, on films in oil whirl at about half the speed "
+        "of rotation."
     )
     return table
 

@@ -134,6 +134,9 @@ def run_depths(
 
 
 def refine(scenario: Scenario) -> Scenario:
-    """The scenario with twice the film resolution and half the macro step."""
-    film = {"columns": 2 * scenario.film.columns, "rows": 2 * scenario.film.rows}
+    """The scenario with twice the film resolution, as far as films can have it, and half the macro step."""
+    film = {
+        key: min(2 * getattr(scenario.film, key), int(port.bearing_parameter(key).maximum or math.inf))
+        for key in ("columns", "rows")
+    }
     return with_overrides(at_half_step(scenario), {"film": film})

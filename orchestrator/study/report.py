@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from io import StringIO
 from typing import Any
@@ -33,15 +33,15 @@ class Report:
     ----------
     comparison : Comparison
         What is shown.
-    fine : Comparison or None
-        The same at a finer resolution.
+    fine : sequence of Comparison
+        The same at finer resolutions.
     """
 
     beside = "beside one another"
     """What the depths are held against, in the heading."""
 
-    def __init__(self, comparison: Comparison, fine: Comparison | None = None) -> None:
-        self.found, self.fine = comparison, fine
+    def __init__(self, comparison: Comparison, fine: Sequence[Comparison] = ()) -> None:
+        self.found, self.fine = comparison, tuple(fine)
 
     def findings(self) -> Iterator[RenderableType]:
         """A table of figures for each phase."""
@@ -95,15 +95,12 @@ class Report:
 
     def lines(self) -> Iterator[list[str]]:
         """Lines of the CSV, SI units."""
-        fine = list(depth_rows(self.fine)) if self.fine is not None else None
         heading = ["phase", "figure", *self.found.runs]
-        yield (
-            heading
-            if self.fine is None
-            else heading + [f"{depth} ({self.fine.settings.text()})" for depth in self.found.runs]
-        )
-        for index, row in enumerate(depth_rows(self.found)):
-            values = [*row.values.values(), *(fine[index].values.values() if fine is not None else ())]
+        for one in self.fine:
+            heading += [f"{depth} ({one.settings.text()})" for depth in self.found.runs]
+        yield heading
+        for row, *finer in zip(*map(depth_rows, (self.found, *self.fine)), strict=True):
+            values = [value for one in (row, *finer) for value in one.values.values()]
             yield [row.phase, row.label, *(f"{value:.10g}" for value in values)]
 
     def _changes(self, fine: Comparison) -> Iterator[tuple[DepthRow, tuple[float, str]]]:
@@ -114,7 +111,7 @@ class Report:
 
     def __rich_console__(self, _console: Console, _options: ConsoleOptions) -> RenderResult:
         """All there is to tell."""
-        found, fine = self.found, self.fine
+        found = self.found
         yield Text(f"{found.title}: {found.names} {self.beside}", style="bold")
         yield Text(
             f"analysed bearing {found.seat.name}; {found.settings.text()}, {found.settings.end:g} s",
@@ -126,7 +123,7 @@ class Report:
         sentences = (Text(item.sentence(depth.upper())) for depth, item in found.conclusions.items())
         yield from section("What an engineer would have concluded", sentences)
         yield from self.criteria()
-        if fine is not None:
+        for fine in self.fine:
             yield from _failures(fine)
             heading = f"Check: {fine.settings.text()} in place of {found.settings.text()}"
             yield from section(heading, [self.changes(fine)])
@@ -143,8 +140,8 @@ class Report:
     def to_json(self) -> str:
         """Machine-readable form, SI units; a value that does not exist is null."""
         data = self._data(self.found)
-        if self.fine is not None:
-            data["check"] = self._data(self.fine) | {"changes": self.change_data(self.fine)}
+        if self.fine:
+            data["check"] = [self._data(one) | {"changes": self.change_data(one)} for one in self.fine]
         return json.dumps(without_infinities(data), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
     def to_csv(self) -> str:

@@ -56,7 +56,8 @@ class WhirlModes:
     bending : ndarray, (k,)
         Share of the shaft's strain in the work of all that holds the mode: 1 where the shaft alone bends,
         0 where it moves on its bearings as a rigid body.  Of x^H K x of the shaft to that and the moduli of
-        x^H (K + lambda C) x of each bearing; as for the strain energies in use, where bearings have no C.
+        x^H (K + lambda C) x of each bearing and of each of the foundation's modes; as for the strain
+        energies in use, where bearings have no C.
     """
 
     eigenvalues: Complex
@@ -133,6 +134,10 @@ def _bending(
     motion = relative_motion(shaft, vectors)
     reacting = bearings.stiffness + values[:, None, None, None] * bearings.damping
     held = np.abs(np.einsum("bik,kbij,bjk->kb", motion.conj(), reacting, motion)).sum(axis=1)
+    if shaft.foundation is not None:
+        ground = vectors[shaft.M.shape[0] :]
+        gives = shaft.foundation.omega[:, None] ** 2 + values * shaft.foundation.damping[:, None]
+        held += np.abs(ground.conj() * gives * ground).sum(axis=0)
     return np.asarray(strain / np.maximum(strain + held, np.finfo(np.float64).tiny))
 
 

@@ -58,11 +58,12 @@ def mode_shapes_figure(data: xr.Dataset, train: Train) -> Figure:
     handles = [
         Patch(facecolor=style.WHIRL_COLOURS["forward"], alpha=0.45, label="orbits, forward whirl"),
         Patch(facecolor=style.WHIRL_COLOURS["backward"], alpha=0.45, label="orbits, backward whirl"),
+        Patch(facecolor=style.WHIRL_MAP(0.5), alpha=0.45, label="orbits in a plane"),
         Line2D([], [], color="#000000", linewidth=1.4, label="vertical y"),
         Line2D([], [], color="#000000", linewidth=1.2, linestyle=(0, (3, 2)), label="horizontal x"),
         Line2D([], [], color="#333333", marker="^", linestyle="none", label="bearing"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False, fontsize=style.FONT)
+    figure.legend(handles=handles, loc="outside lower center", ncols=6, frameon=False, fontsize=style.FONT)
     return figure
 
 

@@ -134,12 +134,13 @@ class PaperReport(Report):
     def lines(self) -> Iterator[list[str]]:
         """Lines of the CSV."""
         heading = ["row", "quantity", "paper", "here", "verdict", "missed by", "reason"]
-        more = [] if self.fine is None else [f"here ({self.fine.settings.text()})", "verdict there"]
-        yield heading + more
-        for row, other in self._pairs(self.fine or self.found):
+        for one in self.fine:
+            heading += [f"here ({one.settings.text()})", "verdict there"]
+        yield heading
+        for row, *finer in zip(self.rows, *map(rows, self.fine), strict=True):
             line = [str(row.number), row.quantity, row.paper, row.here, row.verdict.value]
             line += [row.missed_by, row.reason or row.obstacle]
-            yield line + ([] if self.fine is None else [other.here, other.verdict.value])
+            yield line + [text for other in finer for text in (other.here, other.verdict.value)]
 
     def _pairs(self, fine: Comparison) -> Iterator[tuple[Row, Row]]:
         return zip(self.rows, rows(fine), strict=True)

@@ -45,6 +45,26 @@ def test_frequencies_and_damping_of_two_masses():
     np.testing.assert_allclose(found, exact[np.argsort(exact.imag)], rtol=1e-12)
 
 
+def test_the_share_of_the_shaft_counts_what_the_bearings_stand_on():
+    """A body on a spring of its own, k, and through a bearing on a pedestal: four works, of x^H k x each."""
+    spring, nothing = 3e5, np.zeros((4, 4))
+    model, _ = unreduced(MASS * np.eye(4), nothing, nothing, spring * np.eye(4), bearings=(0,), wheels=(0,))
+    model = replace(model, foundation=of_pedestals([PEDESTAL]))
+    bearings = LinearBearings(np.diag([K, K, 0.0, 0.0])[None], np.diag([C, C, 0.0, 0.0])[None])
+    found = whirl_modes(model, 100.0, 20, bearings=bearings, above=10.0)
+    mass, stiffness, damping = PEDESTAL.direction(0)
+    seen = 0
+    for value, share in zip(found.eigenvalues, found.bending, strict=True):
+        reacting, ground = K + value * C, stiffness + value * damping
+        housing = reacting / (reacting + ground + value**2 * mass)  # of a journal that moves by 1
+        works = spring, abs(reacting) * abs(1.0 - housing) ** 2, abs(ground) * abs(housing) ** 2
+        balance = spring + value**2 * MASS + reacting * (1.0 - housing)
+        if abs(balance) < 1e-6 * spring:  # a mode along x
+            assert share == pytest.approx(works[0] / sum(works), rel=1e-9)
+            seen += 1
+    assert seen == 2
+
+
 @pytest.mark.parametrize("axis", AXES)
 def test_transient_of_two_masses(axis):
     """Released from a displaced start; second order in the step, 1e-6 of the displacement at 1e-5 s."""
