@@ -104,16 +104,14 @@ def run(
         For anything wrong with the input; nothing is written then.
     """
     scenario = load_scenario(request.source, {**request.overrides, "depth_at": None})
-    refined = [scenario]
-    for _ in range(request.doublings):
-        refined.append(refine(refined[-1]))
+    refined = refine(scenario, request.doublings)
     train = train_of(scenario)
     asked = request.depths or fitting(scenario, train, console)
     depths = [depth for depth in registry.names() if depth in asked]
     folder = named(request.out) if request.out else Path("results") / f"{Path(request.source).stem}-compare"
     for place in (folder, partial_folder(folder)):
         check_folder(place, SIGN, _OURS)
-    check_room(folder, sum(record_size(one, train) for one in refined) * len(depths))
+    check_room(folder, sum(record_size(one, train) for one in (scenario, *refined)) * len(depths))
     ensure_fmus(request.fmus, train, depths, console)
     means = Means(request.fmus, request.jobs, request.budget, command)
     with (
@@ -123,7 +121,7 @@ def run(
         runs = Path(made)
         found, records = run_depths(scenario, train, depths, runs, means, console)
         fine: list[Comparison] = []
-        for one in refined[1:]:
+        for one in refined:
             if all(done.complete for done in (found, *fine)):
                 text = settings_of(one).text()
                 console.print(f"Check with {text}", highlight=False)

@@ -122,8 +122,8 @@ def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
         )
     table.caption = (
         "Shaft bends: its share in the strain of the mode, the rest is that of the bearings and of what "
-        "they stand on; near 0 % it moves on them as a rigid body, on films in oil whirl at about half the speed "
-        "of rotation."
+        "they stand on; near 0 % it moves on them as a rigid body, on films in oil whirl at about half the "
+        "speed of rotation."
     )
     return table
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from bearing_fmu import depths
+from fmus import port
 from orchestrator.case.certify import at_half_step
 from orchestrator.errors import OrchestratorError
 from orchestrator.results.record_files import RECORD_FILE, read_record
@@ -133,10 +135,13 @@ def run_depths(
     return gather(records, ended, bearing, scenario, train), left
 
 
-def refine(scenario: Scenario) -> Scenario:
-    """The scenario with twice the film resolution, as far as films can have it, and half the macro step."""
-    film = {
-        key: min(2 * getattr(scenario.film, key), int(port.bearing_parameter(key).maximum or math.inf))
-        for key in ("columns", "rows")
-    }
-    return with_overrides(at_half_step(scenario), {"film": film})
+def refine(scenario: Scenario, doublings: int = 1) -> list[Scenario]:
+    """Scenarios of twice the film resolution, as far as films can have it, and half the macro step each."""
+    found = [scenario]
+    for _ in range(doublings):
+        film = {
+            key: min(2 * getattr(found[-1].film, key), int(port.bearing_parameter(key).maximum or math.inf))
+            for key in ("columns", "rows")
+        }
+        found.append(with_overrides(at_half_step(found[-1]), {"film": film}))
+    return found[1:]

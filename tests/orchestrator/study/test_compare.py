@@ -56,6 +56,7 @@ def compared(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
     (folder / "short.toml").write_text(SHORT)
     command = [sys.executable, "-P", "-m", "orchestrator.cli.main", "compare", "short.toml", "--check"]
+    command += ["--doublings", "1"]
     command += [word for depth in DEPTHS for word in ("--depth", depth)]
     command += ["--columns", "24", "--rows", "4", "--step", "2e-4", "--out", "out", "--fmus", "fmus"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
@@ -69,7 +70,7 @@ def test_a_comparison_leaves_table_figures_and_runs(compared):
     others = [MANIFEST, "comparison.csv", "comparison.json", "comparison.txt"] + [
         f"figures/{name}" for name in FIGURES
     ]
-    expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/{run}")]
+    expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/48x8/{run}")]
     assert files(folder / "out") == sorted(expected)
     assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]
     for depth in DEPTHS:
@@ -84,10 +85,12 @@ def test_the_check_is_finer_and_told(compared):
     folder, _ = compared
     data = json.loads((folder / "out" / "comparison.json").read_text())
     assert data["settings"] == {"macro_step": 2e-4, "columns": 24, "film_rows": 4, "end": 0.05}
-    assert data["check"]["settings"] == {"macro_step": 1e-4, "columns": 48, "film_rows": 8, "end": 0.05}
+    assert [one["settings"] for one in data["check"]] == [
+        {"macro_step": 1e-4, "columns": 48, "film_rows": 8, "end": 0.05}
+    ]
     text = (folder / "out" / "comparison.txt").read_text()
     assert "Check: film 48 x 8, macro step 0.1 ms in place of film 24 x 4, macro step 0.2 ms" in text
-    force = next(item for item in data["check"]["changes"] if item["figure"] == "bearing force, mean")
+    force = next(item for item in data["check"][0]["changes"] if item["figure"] == "bearing force, mean")
     assert 0 < abs(force["largest"]) < 1e-3  # the weight is the weight
 
 
@@ -188,7 +191,7 @@ def run(tmp_path, code, **request):
 @pytest.mark.no_cover  # figures that other tests draw
 def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
     out = tmp_path / "out"
-    status, said, errors = run(tmp_path, DIES_AT_V1, out=out, check=True)
+    status, said, errors = run(tmp_path, DIES_AT_V1, out=out, doublings=2)
     assert status == PROCESS_DIED
     assert "v1 not finished: process-died" in errors and "SIGKILL" in errors
     assert "PARTIAL: V1 process-died" in said and "Check with" not in said
@@ -221,8 +224,8 @@ def test_depths_stand_in_their_own_order(here, tmp_path):
 
 
 def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
-    fine = refine(load_scenario("small"))
-    assert (fine.film.columns, fine.film.rows, fine.step) == (96, 16, 5e-5)
+    found = [(one.film.columns, one.film.rows, one.step) for one in refine(load_scenario("small"), 3)]
+    assert found == [(96, 16, 5e-5), (192, 30, 2.5e-5), (384, 30, 1.25e-5)]  # no film has more rows
 
 
 @pytest.mark.parametrize(
@@ -230,7 +233,7 @@ def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
     [
         (["--bearing", "middle"], "analysed_bearing = 'middle': no such bearing"),
         (["--columns", "4"], "film.columns = 4"),
-        (["--rows", "20", "--check"], "film.rows = 40"),
+        (["--rows", "40"], "film.rows = 40"),
         (["--out", "short.toml"], "is a file"),
         (["--jobs", "0"], "--jobs"),
         (["--depth", "v9"], "--depth v9"),
@@ -247,9 +250,9 @@ def test_wrong_input_is_refused_before_anything_runs(here, arguments, named):
 def test_help_tells_options_and_exit_statuses():
     text = CliRunner().invoke(app, ["compare", "--help"], env={"COLUMNS": "120", "TERM": "dumb"}).output
     options = (
-        "--depth --end --step --columns --rows --bearing --jobs --check --out --fmus --format --no-figures"
+        "--depth --end --step --columns --rows --bearing --jobs --check --doublings --out --fmus --format"
     )
-    for option in options.split():
+    for option in (*options.split(), "--no-figures"):
         assert option in text
     assert re.search(rf"\b{PROCESS_DIED}  ", text)
 

@@ -193,15 +193,17 @@ def test_the_headline_of_the_readme_is_that_of_the_comparison():
 def test_a_finer_resolution_tells_what_it_changes():
     fine = spoiled(replace(runs(), settings=FINE), "v1", "before", least_gap_mean=101e-6)
     fine = spoiled(fine, "v1", "after", sommerfeld_mean=6.0)
-    report = PaperReport(runs(), fine)
+    finest = replace(runs(), settings=replace(FINE, columns=192))
+    report = PaperReport(runs(), [fine, finest])
     change, label = largest_change(report.rows[2], rows(fine)[2])
     assert change == pytest.approx(0.01 / 1.1) and label == "V1"  # against the upper bound, 110 µm
     text = report.to_text()
     assert "The verdict changes in rows 9." in text and "met -> missed" in text
     assert "film 96 x 16, macro step 0.05 ms" in text
-    assert "No verdict changes." in PaperReport(runs(), runs()).to_text()
-    told = json.loads(report.to_json())["check"]["changes"]
-    assert [item["row"] for item in told if item["verdict_changes"]] == [9]
+    assert "Check: film 192 x 16" in text and "No verdict changes." in text
+    told = [one["changes"] for one in json.loads(report.to_json())["check"]]
+    assert [[item["row"] for item in one if item["verdict_changes"]] for one in told] == [[9], []]
+    assert report.to_csv().splitlines()[0].count("verdict there") == 2
 
 
 def test_text_json_and_csv_say_the_same():
