@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -181,4 +180,6 @@ def running_peak_to_peak(values: ArrayLike, samples: int) -> Floats:
     x = np.asarray(values, dtype=float)
     size = max(1, min(samples, x.shape[-1]))
     options = {"size": size, "axis": -1, "mode": "nearest"}
+    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # a quarter of a second at every start
+
     return np.asarray(maximum_filter1d(x, **options) - minimum_filter1d(x, **options))

@@ -45,7 +45,10 @@ def test_help_mentions_every_option_and_exit_status():
     ("module", "heavy"),
     [
         ("orchestrator.cli.main", ("numpy", "xarray", "matplotlib", "fmpy", "pydantic")),
-        ("orchestrator.commands.run", ("matplotlib", "scipy.optimize", "scipy.signal", "scipy.stats")),
+        (
+            "orchestrator.commands.run",
+            ("matplotlib", "scipy.ndimage", "scipy.optimize", "scipy.signal", "scipy.stats"),
+        ),
     ],
 )
 def test_nothing_is_imported_before_it_is_needed(module, heavy):

@@ -67,6 +67,7 @@ def refused(result, path):
     return line
 
 
+@pytest.mark.no_cover  # many times the same lines
 @fault(
     "process",
     "a checkpoint in which a field is missing or is not what a run writes",

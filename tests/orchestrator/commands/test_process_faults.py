@@ -38,13 +38,16 @@ def whole(small_fmus, tmp_path_factory):
         pytest.param(
             signal.SIGINT,
             Outcome.INTERRUPTED,
-            marks=fault(
-                "process",
-                "Ctrl-C in a run with checkpoints",
-                "exit 130, `interrupted`; the record in `-partial`; `resume` from that very step gives the "
-                "record of an undisturbed run, to the bit",
-                guard="orchestrator.master.time_loop:run",
-            ),
+            marks=[
+                pytest.mark.slow,
+                fault(
+                    "process",
+                    "Ctrl-C in a run with checkpoints",
+                    "exit 130, `interrupted`; the record in `-partial`; `resume` from that very step gives "
+                    "the record of an undisturbed run, to the bit",
+                    guard="orchestrator.master.time_loop:run",
+                ),
+            ],
         ),
         pytest.param(
             signal.SIGTERM,

@@ -10,6 +10,7 @@ from orchestrator.master.coupling import SCHEMES
 from orchestrator.master.start.equilibrium import find_start
 from orchestrator.outcome import Outcome
 from orchestrator.scenario.file import load_scenario, train_of
+from tests.marks import slow
 from tests.monolithic.holistic import holistic_model
 from tests.monolithic.integrate import integrate
 
@@ -86,7 +87,10 @@ def test_two_integrators_and_tolerances_agree(model, reference):
     assert force_error(integrate(model, TIMES, rtol=1e-6, method="BDF").forces, reference) < 1e-3
 
 
-@pytest.mark.parametrize("name", [name for name, scheme in SCHEMES.items() if not scheme.many_rates])
+@pytest.mark.parametrize(
+    "name",
+    [slow(name) if name in STEPS else name for name, scheme in SCHEMES.items() if not scheme.many_rates],
+)
 def test_every_coupling_converges_to_the_holistic_model(name, fmus, reference):
     steps = STEPS.get(name, IMPLICIT_STEPS)
     errors = []

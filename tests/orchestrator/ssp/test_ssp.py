@@ -16,6 +16,7 @@ from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
+from tests.marks import slow
 
 SHORT = {"end": 0.012, "event": {"time": 0.00613}, "depth": "v3", "depth_at": {"rear": "v2"}}
 
@@ -54,13 +55,14 @@ def edited(source, target, changes):
     return target
 
 
+@pytest.mark.no_cover  # lines that the tests of each part run
 @pytest.mark.parametrize(
     "settings",
     [
         {},
-        {"reduction": "guyan", "film": {"columns": 32, "rows": 6}},
-        {"tolerance": 2e-3, "step": 4e-4},
-        {"coupling": "multirate", "tolerance": 1e-3},
+        slow({"reduction": "guyan", "film": {"columns": 32, "rows": 6}}),
+        slow({"tolerance": 2e-3, "step": 4e-4}),
+        slow({"coupling": "multirate", "tolerance": 1e-3}),
         {"event": None, "unbalance": {"grade": 1e-3, "at": {"wheel-1": {"unbalance": 0.02, "phase": 0.3}}}},
         {"depth": "linear", "depth_at": {}, "linear_from": "v3"},
         {

@@ -1,6 +1,7 @@
 """Colours, dashes and names of depths; which bearing is shown; all figures in files."""
 
 import numpy as np
+import pytest
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import style
@@ -29,6 +30,7 @@ def test_the_worst_bearing_is_shown_unless_one_is_named(record):
     assert worst_bearing([record.assign_attrs(analysed_bearing="HP-front")]) == "HP-front"
 
 
+@pytest.mark.no_cover  # figures that other tests draw
 def test_writing_gives_every_figure_in_every_format(record, train, tmp_path):
     short = record.isel(time=slice(900, 1100))
     files = write_figures([short], tmp_path / "figures", train=train, formats=("png",))
