@@ -53,12 +53,13 @@ class Group:
     """
 
     def __init__(self, graph: Graph, names: Iterable[str]) -> None:
-        members = self._members = [graph.members[name] for name in names]
+        members = [graph.members[name] for name in names]
         self.units: tuple[Unit, ...] = tuple(m.unit for m in members)
         self._graph = graph
         self._threads = StepThreads(self.units)
         self._targets = np.concatenate([m.targets for m in members])
         self._sources = np.concatenate([m.sources for m in members])
+        self._moves = [(_as_slice(m.targets), _as_slice(m.sources), m.linked) for m in members]
         self._feeds = tuple(m.linked.set for m in members if m.linked is not None)
         self._sets = tuple(m.inputs.set for m in members)
         self._gets = tuple(m.outputs.get for m in members)
@@ -83,11 +84,12 @@ class Group:
     def feed_some(self, chosen: Sequence[int]) -> None:
         """Move the newest outputs into the inputs of the units of these numbers."""
         start = perf_counter()
+        inputs, outputs = self._graph.inputs, self._graph.outputs
         for k in chosen:
-            member = self._members[k]
-            self._graph.inputs[member.targets] = self._graph.outputs[member.sources]
-            if member.linked is not None:
-                member.linked.set()
+            targets, sources, linked = self._moves[k]
+            inputs[targets] = outputs[sources]
+            if linked is not None:
+                linked.set()
         self.exchange_time += perf_counter() - start
 
     def give(self, values: NDArray[np.float64]) -> None:
@@ -247,6 +249,13 @@ class Graph:
     def group(self, names: Iterable[str]) -> Group:
         """Return the units of these names as a group."""
         return Group(self, names)
+
+
+def _as_slice(places: NDArray[np.intp]) -> NDArray[np.intp] | slice:
+    """The same places as a slice, where they follow one another; numpy takes it in a quarter of the time."""
+    if len(places) and (np.diff(places) == 1).all():
+        return slice(int(places[0]), int(places[-1]) + 1)
+    return places
 
 
 def _hold(unit: Unit, inputs: Sequence[str], outputs: Sequence[str]) -> NDArray[np.float64]:

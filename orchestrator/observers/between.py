@@ -139,8 +139,8 @@ class Between:
 
         Returns the number of evaluations that end a wait and are to be looked at, see `fill`.
         """
-        k = np.flatnonzero(done & (self.first < rows))
-        if len(k):
+        if (waited := done & (self.first < rows)).any():
+            k = waited.nonzero()[0]
             last, now = np.full(len(k), rows), np.full(len(k), end)
             then = self._values[k], told()[k], self._motion[k], motion()[k], self._bores.offsets[k]
             self._passed.append(_Passed(k, self.first[k], last, self.stands[k], now, *then))

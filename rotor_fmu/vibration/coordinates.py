@@ -72,7 +72,10 @@ class Compliance:
             return None
         count = len(K)
         product = np.matmul(K, self.mixed.reshape(count, 4, -1)).reshape(4 * count, -1)
-        squares = (product * product.T).reshape(count, 4, count, 4).sum(axis=(1, 3))
+        # Sums over the components, one after the other: numpy takes twice as long over two axes of four.
+        each = (product * product.T).reshape(4 * count, count, 4)
+        each = (each[..., 0] + each[..., 1] + each[..., 2] + each[..., 3]).reshape(count, 4, count)
+        squares = each[:, 0] + each[:, 1] + each[:, 2] + each[:, 3]
         sizes = np.sqrt(np.abs(squares))
         own = np.maximum(sizes.diagonal(), np.finfo(np.float64).tiny)
         return np.asarray(own * (sizes / np.sqrt(np.outer(own, own))).sum(axis=1))

@@ -108,15 +108,15 @@ class Unbalance:
 
     def appeared(self, time: float) -> Array:
         """1 for the nominal unbalance and each loss that has come by an instant, else 0, (1 + l,)."""
-        factors = np.ones(1 + len(self.losses))
-        for k, loss in enumerate(self.losses, 1):
-            if not (loss.time <= time or k in self.come):
-                factors[k] = 0.0
-        return factors
+        return np.array(self._factors(time))
+
+    def _factors(self, time: float) -> list[float]:
+        losses = enumerate(self.losses, 1)
+        return [1.0, *(1.0 if loss.time <= time or k in self.come else 0.0 for k, loss in losses)]
 
     def turned(self, time: float, pull: complex) -> Array:
         """Factors of the columns of `forces`: the pull of all that has appeared by now, (2 + 2 l,)."""
-        return (self.appeared(time)[:, None] * (pull.real, pull.imag)).ravel()
+        return np.array([factor * part for factor in self._factors(time) for part in (pull.real, pull.imag)])
 
     def lose(self, code: int) -> None:
         """Say which losses without an instant have come: the sum of 2^k of them, k from 0."""

@@ -118,14 +118,14 @@ class Multirate:
         wrenches, tangents, where = system.forces, system.tangent_rows, system.stands_at()
         bends = self.tolerance >= FINEST
         known.bend_on(time, step, bends, rates, wrenches, tangents, where, system.laws, room.changed)
-        system.tell_laws(np.flatnonzero(room.changed).tolist())
+        system.tell_laws(room.changed.nonzero()[0].tolist())
         system.rotor_group.step(time, step)
         system.rotor_group.fetch()
         motion, own = system.motion, OWN * self.tolerance
         given = rates, tangents, where, motion, system.levers, room.again
         known.due_at(end, own, common, *given, moved, due)
         room.tangents[:] = tangents
-        self._evaluate(system, np.flatnonzero(due).tolist(), rates[:, STANDS].tolist(), time, step)
+        self._evaluate(system, due.nonzero()[0].tolist(), rates[:, STANDS].tolist(), time, step)
         room.defect[:] = system.defect()
         room.defect[~due] = 0.0
         self._measure(system, room.size, step)
