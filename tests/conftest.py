@@ -98,8 +98,14 @@ def pytest_collection():
                 import_module(module.name)
 
 
+COLLECTED = pytest.StashKey()
+"""All tests, before any is left out."""
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
     """For workers, order the files: long ones first, then those of many tests, as xdist orders them."""
+    config.stash[COLLECTED] = list(items)
     if not hasattr(config, "workerinput"):
         return
     files = [item.nodeid.partition("::")[0] for item in items]
@@ -108,6 +114,19 @@ def pytest_collection_modifyitems(config, items):
         ranks.setdefault(name, (len(LONG), -count))
     order = sorted(range(len(items)), key=lambda index: (ranks[files[index]], files[index]))
     items[:] = [items[index] for index in order]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item):
+    """Count no lines where a test is set up that is marked so; pytest-cov sees to its call."""
+    control = getattr(item.config.pluginmanager.getplugin("_cov"), "cov_controller", None)
+    if control is None or not item.get_closest_marker("no_cover"):
+        return (yield)
+    control.pause()
+    try:
+        return (yield)
+    finally:
+        control.resume()
 
 
 @pytest.fixture(scope="session", autouse=True)

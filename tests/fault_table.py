@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -56,23 +56,23 @@ class Fault:
         return self.tests[0] if len(self.tests) == 1 else self.tests[0].partition("[")[0]
 
 
-class _Collector:
-    """The plugin: keeps the marks of all collected tests."""
+def faults_of(items: Iterable[pytest.Item]) -> list[Fault]:
+    """Group collected tests by what their marks say and by the function."""
+    marks: dict[tuple[str, ...], list[str]] = {}
+    for item in items:
+        for mark in item.iter_markers("fault"):
+            said = mark.kwargs
+            function = item.nodeid.partition("[")[0]
+            key = said["area"], said["case"], said["outcome"], said["guard"], function
+            marks.setdefault(key, []).append(item.nodeid)
+    return [Fault(*key[:4], tuple(tests)) for key, tests in marks.items()]
 
-    def __init__(self) -> None:
-        self.marks: dict[tuple[str, ...], list[str]] = {}
+
+class _Collector:
+    """The plugin: keeps the faults of all collected tests."""
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
-        """Group the items by what their marks say and by the function."""
-        for item in session.items:
-            for mark in item.iter_markers("fault"):
-                said = mark.kwargs
-                function = item.nodeid.partition("[")[0]
-                key = said["area"], said["case"], said["outcome"], said["guard"], function
-                self.marks.setdefault(key, []).append(item.nodeid)
-
-    def faults(self) -> list[Fault]:
-        return [Fault(*key[:4], tuple(tests)) for key, tests in self.marks.items()]
+        self.faults = faults_of(session.items)
 
 
 def collect(root: Path = ROOT) -> list[Fault]:
@@ -96,7 +96,7 @@ def collect(root: Path = ROOT) -> list[Fault]:
         os.close(stdout)
     if status != pytest.ExitCode.OK:
         raise RuntimeError(f"pytest could not collect the tests: {status!r}; see pytest --collect-only")
-    return collector.faults()
+    return collector.faults
 
 
 def table(faults: Sequence[Fault]) -> str:
@@ -130,12 +130,19 @@ def page(faults: Sequence[Fault], old: str) -> str:
 
 def main(arguments: Sequence[str]) -> int:
     """Write or check the page; return the exit status."""
-    old, faults = PAGE.read_text(encoding="utf-8"), collect()
-    new = page(faults, old)
+    faults = collect()
     if "--check" not in arguments:
-        PAGE.write_text(new, encoding="utf-8")
+        PAGE.write_text(page(faults, PAGE.read_text(encoding="utf-8")), encoding="utf-8")
         return 0
-    problems = []
+    problems = problems_of(faults)
+    print("\n".join(problems), file=sys.stderr)
+    return 1 if problems else 0
+
+
+def problems_of(faults: Sequence[Fault]) -> list[str]:
+    """What the page says otherwise than the marks, and the guards that there are not."""
+    old = PAGE.read_text(encoding="utf-8")
+    new, problems = page(faults, old), []
     for fault in faults:
         try:
             definition(fault.guard, ROOT)
@@ -143,8 +150,7 @@ def main(arguments: Sequence[str]) -> int:
             problems.append(f"{fault.test}: {error}")
     if new != old:
         problems.append(f"{PAGE.name} does not say what the marks say: run python -m tests.fault_table")
-    print("\n".join(problems), file=sys.stderr)
-    return 1 if problems else 0
+    return problems
 
 
 if __name__ == "__main__":

@@ -167,6 +167,7 @@ def test_a_rotor_that_fails_shows_the_bearing_farthest_out(store, toy_fmus):
     system.close()
 
 
+@pytest.mark.no_cover  # lines that other tests run
 @pytest.mark.parametrize("outcome", [outcome for outcome in Outcome if not outcome.ok])
 @fault(
     "process",

@@ -13,6 +13,8 @@ from typer.testing import CliRunner
 from orchestrator.cli.main import app
 from tests.published import published
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 HERTZ = 2.0 * math.pi
 MASS, LENGTH, UNBALANCE = 100.0, 1.0, 0.01
 STIFF, DAMPER = 5e6, 4e3  # of each bearing

@@ -9,6 +9,8 @@ from typer.testing import CliRunner
 from orchestrator.cli.main import app
 from tests.rotor_fmu.published import DAMPED, FRISWELL, LALANNE, OVERHUNG
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 
 @pytest.fixture
 def said(tmp_path, monkeypatch):

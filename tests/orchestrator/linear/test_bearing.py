@@ -72,6 +72,7 @@ def test_no_bearing(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.no_cover  # lines that other tests run
 def test_a_bearing_of_its_own_file(tmp_path):
     folder = tmp_path / "out"
     assert investigate("tests/examples/bearing/dam.toml", folder, depths=("v2",)) == 0
@@ -83,6 +84,7 @@ def test_a_bearing_of_its_own_file(tmp_path):
     assert float(dam.max()) > 2e5  # what builds up before its end presses down
 
 
+@pytest.mark.no_cover  # lines that other tests run
 def test_a_load_in_any_direction(tmp_path):
     """Turned by a quarter, load and pressure are the same: in the file and as an option."""
     path, found = tmp_path / "own.toml", []

@@ -23,6 +23,7 @@ def elsewhere(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.no_cover  # lines that other tests run
 def test_the_examples_of_the_page_run_in_their_order(monkeypatch, capsys, once, elsewhere):
     """With FMUs from a folder of the tests, and 0.16 s in place of 0.2."""
     pytest.importorskip("plotly")
