@@ -60,8 +60,8 @@ def alone(parameters: BearingParameters) -> tuple[list[BearingParameters], Pads]
 
 
 @inner_kernel
-def bounds(pivot: Pivot, scales: Scales, q: Floats, recess: float) -> tuple[float, float]:
-    """Between which d the gap is open, m; the lower one is above where it is closed at the pivot.
+def bounds(pivot: Pivot, scales: Scales, q: Floats, recess: float, least: float) -> tuple[float, float]:
+    """Between which d no gap is below the least, m; the lower one is above where one at the pivot is.
 
     Parameters
     ----------
@@ -71,8 +71,10 @@ def bounds(pivot: Pivot, scales: Scales, q: Floats, recess: float) -> tuple[floa
         Position of the journal in the bore, m and rad.
     recess : float
         w, m.
+    least : float
+        Gap over the clearance.
     """
-    low, high, most = -np.inf, np.inf, 1.0 - scales.deepest
+    low, high, most = -np.inf, np.inf, 1.0 - least
     for end in (-0.5, 0.5):
         near, beside = _seen(pivot, scales, q, end * scales.width, recess)
         if near >= most:

@@ -87,7 +87,7 @@ def begin(search: Floats, seat: Seat) -> int:
 @inner_kernel
 def _open(search: Floats, seat: Seat) -> int:
     """Begin to look for d at a w; as `begin`."""
-    low, high = bounds(seat.pivot, seat.scales, seat.q, search[W])
+    low, high = bounds(seat.pivot, seat.scales, seat.q, search[W], seat.scales.deepest)
     if not low < high:
         return seat.scales.closes
     search[LOW], search[HIGH], search[COUNT] = low, high, 0.0
@@ -98,8 +98,13 @@ def _open(search: Floats, seat: Seat) -> int:
             search[D] = 0.5 * (low + high)
     else:
         search[PHASE] = _SCAN
+        search[LAST] = high if seat.sense > 0.0 else low
+        # between where the surfaces meet: how far asperities are pressed, and the bounds with them, goes with
+        # their height, and where films are found does not
+        near, far = bounds(seat.pivot, seat.scales, seat.q, search[W], max(0.0, seat.scales.deepest))
+        if near < far:
+            low, high = near, far
         search[EDGE], search[OTHER] = (high, low) if seat.sense > 0.0 else (low, high)
-        search[LAST] = search[EDGE]
         search[D] = search[EDGE] + _SHARES[0] * (search[OTHER] - search[EDGE])
     return GO_ON
 
@@ -130,7 +135,7 @@ def proceed(search: Floats, status: int, out: Floats, seat: Seat) -> int:
     moment = pivot[ACROSS] * out[0] + pivot[ACROSS + 1] * out[1] if status == OK else 0.0
     size = np.hypot(out[0], out[1]) if status == OK else 0.0
     if phase == _SCAN:
-        _scan(search, status, seat.sense * moment, size, seat.nothing)
+        _scan(search, status, seat.sense * moment, size, seat)
         return GO_ON
     if phase == _SUMMIT:
         _climb(search, status, seat.sense * moment, size, seat.nothing)
@@ -143,18 +148,18 @@ def proceed(search: Floats, status: int, out: Floats, seat: Seat) -> int:
 
 
 @inner_kernel
-def _scan(search: Floats, status: int, moment: float, size: float, nothing: float) -> None:
+def _scan(search: Floats, status: int, moment: float, size: float, seat: Seat) -> None:
     """From the trailing edge on, until the moment has passed zero."""
     d, count = search[D], int(search[COUNT])
     if status == OK and not moment < 0.0:
-        if size > nothing:
+        if size > seat.nothing:
             _bracket(search, d, search[LAST])
             return
         search[PHASE], search[COUNT] = _SUMMIT, 0.0  # here is nothing, and whether before it is to be seen
         search[LAST] = search[OTHER] = d
         search[D] = d + _GOLDEN * (search[EDGE] - d)
     elif count + 1 == len(_SHARES):
-        _bracket(search, search[OTHER], d)
+        _bracket(search, search[LOW] if seat.sense > 0.0 else search[HIGH], d)
     else:
         search[LAST], search[COUNT] = d, search[COUNT] + 1.0
         search[D] = search[EDGE] + _SHARES[count + 1] * (search[OTHER] - search[EDGE])

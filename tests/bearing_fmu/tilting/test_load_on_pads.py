@@ -135,6 +135,19 @@ def test_a_pad_that_has_lost_its_hold_gives_nothing_but_friction():
     assert 0.9 * held[rubs] < lost[rubs] < held[rubs]
 
 
+@pytest.mark.parametrize("place", [0.49, 0.51, 0.55, 0.59])
+def test_where_a_pad_loses_its_hold_does_not_depend_on_asperities_that_do_not_touch(place):
+    """Before the fold and behind it; rough pads are pressed deeper, so the search has further bounds."""
+    bore = to_text(tilting(4, 80.0 * DEG, 0.3, 0.55)[:1])
+    smooth, rough = (
+        at_rest(film(bore=bore, aspect=0.6, **(ROUGH | {"roughness": sigma})), [0.0, -place, 0.0, 0.0])
+        for sigma in (3e-6, 3e-5)
+    )
+    assert abs(smooth[0][1]) > 1.0
+    np.testing.assert_allclose(rough[1][0], smooth[1][0], rtol=1e-4)
+    np.testing.assert_allclose(rough[0][1], smooth[0][1], rtol=1e-4)
+
+
 def test_a_whirl_sees_how_the_share_of_a_pad_changes():
     """Synchronous stiffness: the pad's own, its motion condensed, and what its share loses."""
     checked = 0
