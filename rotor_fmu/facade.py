@@ -44,7 +44,8 @@ class RotorSlave(UnitSlave):
         bearings = len(self._train.bearings)
         last = 1 + bearings * _LAW
         law = self.inputs[1:last].reshape(bearings, _LAW)
-        self._states_of_drive, self._friction = self.inputs[last : last + 3], self.inputs[last + 3 :]
+        switches = len(port.SWITCHES)
+        self._switches, self._lost, self._friction = np.split(self.inputs[last:], [switches, switches + 1])
         self._law = (
             law[:, :4],
             law[:, 4:20].reshape(bearings, 4, 4),
@@ -118,14 +119,16 @@ class RotorSlave(UnitSlave):
         drive = self._drive
         return drive.on_course(self.start_time) if drive.course else float(self.inputs[0])
 
-    def _braking(self, released: bool, broken: bool) -> tuple[bool, Braking]:
+    def _braking(self) -> tuple[bool, Braking]:
         """Whether torques decide the speed, and what acts on the rotation now, where that is asked for."""
-        free = self._drive.is_free(released)
+        on = {
+            name for name, value in zip(port.SWITCHES, self._switches.tolist(), strict=True) if value >= 0.5
+        }
+        free = self._drive.is_free(on)
         if not (free or self._rotor.keeps_account):
             return free, NOTHING
         friction = float(self._friction.sum())
-        now = self._drive.braking(self._rotor.speed, friction, released=released, broken=broken)
-        return free, now
+        return free, self._drive.braking(self._rotor.speed, friction, on)
 
     def _show(self) -> None:
         """Write the motion of journals and housings, and the speed."""
@@ -147,9 +150,8 @@ class RotorSlave(UnitSlave):
 
     def advance(self, time: float, step: float) -> None:
         """Step the shaft under the laws at the inputs."""
-        released, broken, lost = self._states_of_drive.tolist()
-        free, now = self._braking(released >= 0.5, broken >= 0.5)
-        self._rotor.unbalance.lose(int(lost))
+        free, now = self._braking()
+        self._rotor.unbalance.lose(int(self._lost[0]))
         if free:
             self._rotor.freely(time, step, *self._law, now)
         else:

@@ -53,7 +53,18 @@ from fmus.port.connector import (
     K,
 )
 from fmus.port.details import MOST_PADS, WHIRL
-from fmus.port.drive import COURSE, FRICTION_POWER, LOSSES, LOST, RELEASED, ROTATION, TORQUE, VACUUM_BROKEN
+from fmus.port.drive import (
+    COURSE,
+    FRICTION_POWER,
+    LOSSES,
+    LOST,
+    RELEASED,
+    ROTATION,
+    SWITCHES,
+    TORQUE,
+    VACUUM_BROKEN,
+    switch,
+)
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.linear_bearing import (
     DAMPING,
@@ -104,6 +115,7 @@ __all__ = [
     "STATIC_POSITION",
     "STATIC_WRENCH",
     "STIFFNESS",
+    "SWITCHES",
     "TORQUE",
     "UNITS",
     "USUAL_INDEX",
@@ -134,6 +146,7 @@ __all__ = [
     "room_in",
     "rotor",
     "rows_of_values",
+    "switch",
     "viscosity_index",
     "with_starts",
 ]

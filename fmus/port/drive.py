@@ -5,19 +5,35 @@ from __future__ import annotations
 from fmus.port.connector import NOMINAL_SPEED
 from fmus.port.variable import Variable
 
-RELEASED, VACUUM_BROKEN, LOST = "drive.released", "drive.vacuum_broken", "losses.come"
+SWITCHES: dict[str, str] = {}
+"""Inputs of the rotor that an event switches on: name and meaning, see `switch`."""
+
+
+def switch(name: str, text: str) -> str:
+    """Declare an input of the rotor that an event switches on; return its name.
+
+    A new one is declared here, has its event in `orchestrator.scenario.events`, and does what it does in
+    `rotor_fmu.vibration.drive`: master, SSP and the pages of the FMU go by this list.
+    """
+    SWITCHES[name] = text
+    return name
+
+
+RELEASED = switch("drive.released", "from 0.5 on nothing drives the rotor: it slows down by itself")
+VACUUM_BROKEN = switch("drive.vacuum_broken", "from 0.5 on drive.windage_broken counts")
+LOST = "losses.come"
 FRICTION_POWER = "friction_power"
 """Of a bearing; of the rotor the input ``bearing[i].friction_power``."""
 ROTATION = "rotation.speed"
 COURSE, LOSSES, TORQUE = "speed.course", "losses", "drive.torque"
 
-DRIVE_INPUTS = (
-    Variable(RELEASED, "input", "", "from 0.5 on nothing drives the rotor: it slows down by itself", 0.0),
-    Variable(VACUUM_BROKEN, "input", "", "from 0.5 on drive.windage_broken counts", 0.0),
-    Variable(
-        LOST, "input", "", "sum of 2^k of those losses without an instant that have come, k from 0", 0.0
-    ),
-)
+
+def drive_inputs() -> tuple[Variable, ...]:
+    """What events set: the switches, and last which losses have come."""
+    come = "sum of 2^k of those losses without an instant that have come, k from 0"
+    return tuple(Variable(name, "input", "", text, 0.0) for name, text in {**SWITCHES, LOST: come}.items())
+
+
 ROTATION_OUTPUT = Variable(
     ROTATION,
     "output",

@@ -17,7 +17,7 @@ from fmus.port.connector import (
     kinematics,
     law,
 )
-from fmus.port.drive import DRIVE_INPUTS, DRIVE_PARAMETERS, FRICTION_POWER, ROTATION_OUTPUT
+from fmus.port.drive import DRIVE_PARAMETERS, FRICTION_POWER, ROTATION_OUTPUT, drive_inputs
 from fmus.port.failure import FAILURE
 from fmus.port.start import ORBIT_FOLLOWS, START_PARTS, shape_follows, start_names
 from fmus.port.variable import Value, Variable, with_starts
@@ -182,7 +182,7 @@ def rotor(
     for i, name in enumerate(bearings, 1):
         for v in law("input", f"bearing[{i}]."):
             variables.append(replace(v, description=f"{name}: {v.description}"))
-    variables.extend(DRIVE_INPUTS)
+    variables.extend(drive_inputs())
     for i, name in enumerate(bearings, 1):
         power = f"{name}: friction power, which slows a released rotor"
         variables.append(Variable(at_bearing(i, FRICTION_POWER), "input", "W", power, 0.0, nominal=1e5))

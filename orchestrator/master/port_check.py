@@ -9,8 +9,6 @@ from orchestrator.errors import PortError
 from orchestrator.fmi.unit import Unit
 from rotor_fmu.train.wording import likely
 
-SWITCHES = (port.RELEASED, port.VACUUM_BROKEN, port.LOST)
-"""Inputs of a turning rotor that events set."""
 _OFFSETS = tuple(v for v in port.BEARING_PARAMETERS if v.name.startswith("offset."))
 
 
@@ -26,7 +24,7 @@ def check_port(rotor: Unit, bearings: Sequence[Unit], *, turning: bool = False) 
     needed = [port.SPEED]
     for index in range(1, len(bearings) + 1):
         needed += [port.at_bearing(index, name) for name in (*port.LAW, *port.JOURNAL)]
-    needed += [*SWITCHES, port.ROTATION] if turning else []
+    needed += [*port.SWITCHES, port.LOST, port.ROTATION] if turning else []
     problems = list(differences(rotor, (by_name[name] for name in needed)))
     seen = set()
     for bearing in bearings:

@@ -14,7 +14,7 @@ from orchestrator.fmi.block import Block
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph, Group
 from orchestrator.master.interface import defects, largest_relative
-from orchestrator.master.port_check import SWITCHES, check_port
+from orchestrator.master.port_check import check_port
 from orchestrator.master.rollback import Rollback
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ class System:
         moving = port.at_bearing(1, port.HOUSING[0]) in rotor.file.variables
         if turning:
             friction = (port.at_bearing(i, port.FRICTION_POWER) for i in range(1, n + 1))
-            rotor_inputs += (*SWITCHES, *friction)
+            rotor_inputs += (*port.SWITCHES, port.LOST, *friction)
         rotor_outputs = tuple(_at_bearings(n, port.JOURNAL))
         if moving:
             rotor_outputs += tuple(_at_bearings(n, port.HOUSING))
@@ -119,7 +119,7 @@ class System:
         self.rollback = Rollback(self.units, self.graph)
         self._all_laws = Block(rotor, [*_at_bearings(n, port.LAW)], self.laws.reshape(-1))
         self._law_blocks = [Block(rotor, _at_bearing(i, port.LAW), law) for i, law in enumerate(self.laws, 1)]
-        self._friction = inputs[turned][len(SWITCHES) :]
+        self._friction = inputs[turned][len(port.SWITCHES) + 1 :]
         self._turning = Block(rotor, rotor_inputs[turned], inputs[turned])
         self._defect = np.empty((n, 4))
         self.loads, self.levers = np.ones(n), np.ones(n)
@@ -187,7 +187,7 @@ class System:
         return float(self._speed_now[0])
 
     def switch(self, name: str, by: float = 1.0) -> None:
-        """Add to an input of a turning rotor, one of `SWITCHES`, from now on."""
+        """Add to an input of a turning rotor, one of `port.SWITCHES` or `port.LOST`, from now on."""
         self.graph.inputs[self._input_at[name]] += by
 
     def set_speed(self, speed: float) -> None:

@@ -136,7 +136,7 @@ class BladeLoss(Conditional):
 
 
 class Switch(Conditional):
-    """Something that an input of the rotor switches."""
+    """Something that an input of the rotor switches on, one of `fmus.port.SWITCHES`."""
 
     input: ClassVar[str]
 

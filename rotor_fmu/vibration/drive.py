@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from fmus.port import COURSE, TORQUE
+from fmus.port import COURSE, RELEASED, TORQUE, VACUUM_BROKEN
 
 Row = tuple[float, float]
 
@@ -67,27 +68,27 @@ class Drive:
         """Speed of the course [rad/s]."""
         return _on(self.course, time)
 
-    def braking(self, speed: float, friction: float, *, released: bool, broken: bool) -> Braking:
+    def braking(self, speed: float, friction: float, on: Set[str] = frozenset()) -> Braking:
         """What acts on the rotation at a speed [rad/s] under a power of friction [W].
 
         Parameters
         ----------
-        released, broken : bool
-            Whether the drive has let go, and whether the vacuum is broken.
+        on : set of str
+            Which of `fmus.port.SWITCHES` are on.
         """
-        windage = (self.windage_broken if broken else self.windage) * abs(speed) ** 3
-        driven = bool(self.torque) and not released
+        windage = (self.windage_broken if VACUUM_BROKEN in on else self.windage) * abs(speed) ** 3
+        driven = bool(self.torque) and RELEASED not in on
         return Braking(_on(self.torque, abs(speed)) if driven else 0.0, friction, windage)
 
-    def is_free(self, released: bool) -> bool:
-        """Whether torques decide the speed.
+    def is_free(self, on: Set[str]) -> bool:
+        """Whether torques decide the speed, with these switches on.
 
         Raises
         ------
         ValueError
             If they do, but there is no inertia.
         """
-        free = released or bool(self.torque)
+        free = RELEASED in on or bool(self.torque)
         if free and not self.inertia > 0.0:
             raise ValueError(f"drive.inertia = {self.inertia} kg m2; allowed for a free rotor is > 0")
         return free

@@ -31,8 +31,7 @@ def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():
         "film.whirl",
         "wiped",
         "contact_area",
-        port.RELEASED,
-        port.VACUUM_BROKEN,
+        *port.SWITCHES,
         "losses.come",
     }
     for variable in (*port.BEARING, *port.rotor(["b"], ["w"], 2)):

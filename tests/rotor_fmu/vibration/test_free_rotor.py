@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bearing_fmu.film import make_film
+from fmus.port import RELEASED, VACUUM_BROKEN
 from rotor_fmu.vibration.drive import Braking, Drive, torque_of
 from rotor_fmu.vibration.spin import Spin
 from tests.bearing_fmu.bearings import plain, respond
@@ -20,8 +21,10 @@ from tests.rotor_fmu.small_shafts import (
 def freely(drive, speed, friction, broken, steps, step=1e-3):
     """Speed of a balanced rotor at rest in its bearings after steps of its own."""
     spin = Spin(unbalance([0.0], [0.0]), drive.inertia)
+    on = {VACUUM_BROKEN} if broken else set()
+    on |= set() if drive.torque else {RELEASED}
     for _ in range(steps):
-        now = drive.braking(speed, friction, released=not drive.torque, broken=broken)
+        now = drive.braking(speed, friction, on)
         speed = spin.speed_after((0.0, speed), step, (0j, 0j), now, 0.0)
     return speed
 
@@ -41,7 +44,7 @@ def test_a_free_rotor_obeys_its_torques():
     rise = 100.0 * (1.0 - math.exp(-400.0 / 100.0 / inertia * 5.0))
     assert freely(falling, 0.0, 0.0, False, 5000) == pytest.approx(rise, rel=1e-4)
     with pytest.raises(ValueError, match="allowed for a free rotor"):
-        Drive().is_free(True)
+        Drive().is_free({RELEASED})
     with pytest.raises(ValueError, match="a torque in N m"):
         torque_of("[[1]]")
 
