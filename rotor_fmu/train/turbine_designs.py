@@ -20,6 +20,7 @@ SUBHARMONIC = TurbineDesign(
     friction=0.04,
     lp_balance=0.85,
     rayleigh_alpha=0.6,
+    turned=90.0,
 )
 """With the blade of the scenario ``paper`` V1 answers at half the speed, V2 less and V3 hardly."""
 DESIGNS = {"subharmonic": SUBHARMONIC}

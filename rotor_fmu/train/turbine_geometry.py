@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from fmus import port
@@ -51,6 +51,8 @@ class TurbineDesign:
         of one flow against those of the other, the middle wheel without.
     rayleigh_alpha : float
         Damping of the mass [1/s].
+    turned : float
+        Angle by which the nominal unbalance of the whole train is turned [degrees].
     """
 
     lp_core_diameter: float = 1.11
@@ -72,6 +74,7 @@ class TurbineDesign:
     generator_balance: float = 10.2
     exciter_balance: float = 1.0
     rayleigh_alpha: float = 1.5
+    turned: float = 0.0
 
 
 class _Lathe:
@@ -158,7 +161,7 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
         rayleigh_beta=2e-5,
         balance_grade=2.5e-3,
         shoulders=tuple(lathe.shoulders),
-        wheels=tuple(lathe.wheels),
+        wheels=tuple(_turned(wheel, math.radians(design.turned)) for wheel in lathe.wheels),
         bearings=tuple(lathe.bearings),
         couplings=tuple(lathe.couplings),
     )
@@ -194,6 +197,11 @@ def _high_pressure(lathe: _Lathe, design: TurbineDesign) -> None:
     lathe.turn(journal.diameter + 0.08, 350)
     lathe.turn(journal.diameter + 0.06, 450)
     lathe.turn(1.10, 200)
+
+
+def _turned(wheel: Wheel, angle: float) -> Wheel:
+    phase = (wheel.unbalance_phase + angle) % (2.0 * math.pi) if angle else wheel.unbalance_phase
+    return replace(wheel, unbalance_phase=phase)
 
 
 def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float) -> None:
