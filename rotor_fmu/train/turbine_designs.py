@@ -1,4 +1,7 @@
-"""Other designs of the turbine train that come with it, each a file of a train beside its own."""
+"""Other designs of the turbine train that come with it, each a file of a train beside its own.
+
+``python -m rotor_fmu.train.turbine_designs rotor_fmu/data/turbine`` writes all.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from pathlib import Path
 
 from rotor_fmu.train.train import Train
 from rotor_fmu.train.turbine_geometry import JournalDesign, TurbineDesign, turbine_train
-from rotor_fmu.train.writer import shaft_csv, train_toml
+from rotor_fmu.train.writer import shaft_csv, train_toml, write_train
 
 SUBHARMONIC = TurbineDesign(
     lp_core_diameter=1.12,
@@ -20,7 +23,7 @@ SUBHARMONIC = TurbineDesign(
     friction=0.04,
     lp_balance=0.85,
     rayleigh_alpha=0.6,
-    turned=90.0,
+    turned=-270.0,  # a quarter of a turn, with phases below one
 )
 """With the blade of the scenario ``paper`` V1 answers at half the speed, V2 less and V3 hardly."""
 DESIGNS = {"subharmonic": SUBHARMONIC}
@@ -39,7 +42,8 @@ def files(name: str) -> dict[str, str]:
 
 
 def main() -> None:
-    """Write all designs into the folder given."""
+    """Write the train and all other designs into the folder given."""
+    write_train(turbine_train(), Path(sys.argv[1]))
     for name in DESIGNS:
         for file, text in files(name).items():
             (Path(sys.argv[1]) / file).write_text(text, encoding="utf-8")

@@ -2,15 +2,13 @@
 
 The drawing of a real half-speed set is not public.  `turbine_train` draws a plausible one: HP, three LP,
 generator and exciter, 278 shoulders of 450 to 1600 mm on 68 m.  ``data/turbine`` holds its result for the
-default `TurbineDesign`; ``python -m rotor_fmu.train.turbine_geometry FOLDER`` writes it.
+default `TurbineDesign`, see `rotor_fmu.train.turbine_designs`.
 """
 
 from __future__ import annotations
 
 import math
-import sys
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass
 
 from fmus import port
 from rotor_fmu.train.train import BearingSeat, Coupling, Material, Shoulder, Train, Wheel
@@ -80,7 +78,8 @@ class TurbineDesign:
 class _Lathe:
     """Turns shoulders one behind the other and remembers what sits at their boundaries."""
 
-    def __init__(self) -> None:
+    def __init__(self, turned: float) -> None:
+        self.turned = turned
         self.shoulders: list[Shoulder] = []
         self.wheels: list[Wheel] = []
         self.bearings: list[BearingSeat] = []
@@ -109,7 +108,7 @@ class _Lathe:
                 transverse_inertia=round(transverse, 1),
                 mean_diameter=round(diameter, 6),
                 balance_factor=balance,
-                unbalance_phase=phase,
+                unbalance_phase=phase + self.turned,
             )
         )
 
@@ -145,7 +144,7 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
         278 shoulders, 68.0 m.
     """
     design = design or TurbineDesign()
-    lathe = _Lathe()
+    lathe = _Lathe(math.radians(design.turned))
     _high_pressure(lathe, design)
     for number, phase in ((1, 0.0), (2, 90.0), (3, 180.0)):
         lathe.couplings.append(Coupling(f"{ROTORS[number - 1]}-{ROTORS[number]}", lathe.node))
@@ -161,7 +160,7 @@ def turbine_train(design: TurbineDesign | None = None) -> Train:
         rayleigh_beta=2e-5,
         balance_grade=2.5e-3,
         shoulders=tuple(lathe.shoulders),
-        wheels=tuple(_turned(wheel, math.radians(design.turned)) for wheel in lathe.wheels),
+        wheels=tuple(lathe.wheels),
         bearings=tuple(lathe.bearings),
         couplings=tuple(lathe.couplings),
     )
@@ -197,11 +196,6 @@ def _high_pressure(lathe: _Lathe, design: TurbineDesign) -> None:
     lathe.turn(journal.diameter + 0.08, 350)
     lathe.turn(journal.diameter + 0.06, 450)
     lathe.turn(1.10, 200)
-
-
-def _turned(wheel: Wheel, angle: float) -> Wheel:
-    phase = (wheel.unbalance_phase + angle) % (2.0 * math.pi) if angle else wheel.unbalance_phase
-    return replace(wheel, unbalance_phase=phase)
 
 
 def _low_pressure(lathe: _Lathe, design: TurbineDesign, name: str, phase: float) -> None:
@@ -295,14 +289,3 @@ def _exciter(lathe: _Lathe, design: TurbineDesign) -> None:
     lathe.bearing("EXC", journal, design)
     lathe.turn(d, 200)
     lathe.turn(d + 0.01, 450)
-
-
-def main() -> None:
-    """Write the default train into the folder given."""
-    from rotor_fmu.train.writer import write_train
-
-    write_train(turbine_train(), Path(sys.argv[1]))
-
-
-if __name__ == "__main__":
-    main()

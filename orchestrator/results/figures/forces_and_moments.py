@@ -9,6 +9,7 @@ import numpy as np
 
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.event_marks import draw_events
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -98,8 +99,8 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
                 style.row_prefix(records, record, bearing),
             )
             panels.draw_curve(grid[row, -1], near, _curve(record, name, bearing), quantity)
-            panels.draw_events(grid[row, column], whole, record)
-        panels.draw_events(grid[row, -1], near, records[0], named=False)
+            draw_events(grid[row, column], whole, record)
+        draw_events(grid[row, -1], near, records[0], named=False)
         panels.scale_panels(list(grid[row]))
         grid[row, 0].set_ylabel(quantity.axis)
         for column, axes in enumerate(grid[row]):

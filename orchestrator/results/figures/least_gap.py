@@ -9,6 +9,7 @@ import numpy as np
 
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.event_marks import draw_events
 from orchestrator.results.windows import phases
 
 if TYPE_CHECKING:
@@ -124,7 +125,7 @@ def least_gap(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
             for curve in _curves(record, bearing):
                 panels.draw_curve(axes, view, curve, quantities.GAP)
             draw_contact(axes, view, record, bearing)
-            panels.draw_events(axes, view, record, named=column == 0)
+            draw_events(axes, view, record, named=column == 0)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == rows - 1)
         grid[row, 0].set_ylabel(quantities.GAP.axis)

@@ -9,6 +9,7 @@ import numpy as np
 
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.event_marks import draw_events
 from orchestrator.results.figures.least_gap import draw_contact, gap_ceiling
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def overview(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figur
                 panels.draw_curve(axes, view, curve, quantity)
             draw_contact(grid[row, 1], view, record, name, height=0.08)
         for axes in grid[row]:
-            panels.draw_events(axes, view, records[0], named=False)
+            draw_events(axes, view, records[0], named=False)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == len(names) - 1)
         grid[row, 0].set_ylabel(

@@ -31,9 +31,9 @@ PAPER: dict[str, Any] = {
 }
 _LONG = 1500
 """Samples from which a curve is an image in a PDF or SVG, which would be large and slow otherwise."""
-_SIDE_BY_SIDE, _ON_A_LINE = 2, 5
-"""Events that are named beside one another, and means in a line above a panel."""
-_LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
+_ON_A_LINE = 5
+"""Means in a line above a panel."""
+LETTER, _HANDLE = 0.066, 0.7  # inches of a legend's letter, and of a line with its spaces
 
 
 @dataclass(frozen=True)
@@ -133,45 +133,6 @@ def draw_curve(axes: Axes, view: View, curve: Curve, quantity: quantities.Quanti
         )
 
 
-def draw_events(axes: Axes, view: View, record: xr.Dataset, *, named: bool = True) -> None:
-    """Mark the events."""
-    schedule = from_attributes(record.attrs)
-    seen = [event for event in instants(record) if view.start <= event <= view.end]
-    words = {
-        event: ", ".join(dict.fromkeys(one.label for one in schedule.events if one.time == event))
-        for event in seen
-    }
-    upright = len(seen) > _SIDE_BY_SIDE or _crowded(axes, view, words)
-    for event in seen:
-        shown = view.shown(event)
-        axes.axvline(shown, color=style.EVENT, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1.5)
-        if named:
-            axes.annotate(
-                words[event],
-                (shown, 1.0),
-                xycoords=("data", "axes fraction"),
-                xytext=(-3, -2),
-                textcoords="offset points",
-                ha="right",
-                va="top",
-                fontsize=style.FONT - 1.5,
-                color=style.EVENT,
-                rotation=90.0 if upright else 0.0,
-            )
-
-
-def _crowded(axes: Axes, view: View, words: dict[float, str]) -> bool:
-    """Whether a name is wider than what lies before its event, to the event or the axis before it."""
-    figure = axes.get_figure(root=True)
-    assert figure is not None
-    width = axes.get_position().width * float(figure.get_size_inches()[0])  # inches
-    starts = [view.start, *words][: len(words)]
-    return any(
-        _LETTER * len(text) > (event - start) / (view.end - view.start) * width
-        for start, (event, text) in zip(starts, words.items(), strict=True)
-    )
-
-
 def draw_means(
     axes: Axes, view: View, record: xr.Dataset, samples: NDArray[np.float64], quantity: quantities.Quantity
 ) -> str:
@@ -266,7 +227,7 @@ def scale_panels(
 def _legend_columns(figure: Figure, labels: Sequence[str]) -> int:
     """As many columns as the longest label leaves room for."""
     widest = max((len(label) for label in labels), default=1)
-    column = _LETTER * widest + _HANDLE
+    column = LETTER * widest + _HANDLE
     return max(1, min(len(labels), int(figure.get_size_inches()[0] / column)))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.event_marks import draw_events
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,7 +61,7 @@ def _shaft_maximum(
         left, right = grid[row]
         for axes, view in ((left, whole), (right, near)):
             panels.draw_curve(axes, view, curve, quantity)
-            panels.draw_events(axes, view, record, named=axes is left)
+            draw_events(axes, view, record, named=axes is left)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == rows - 1)
         means = panels.draw_means(left, whole, record, samples, quantity)

@@ -9,6 +9,7 @@ import numpy as np
 
 from orchestrator.results import quantities, statistics
 from orchestrator.results.figures import panels, style
+from orchestrator.results.figures.event_marks import draw_events
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,7 +59,7 @@ def supports(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figur
                 if column == 0:
                     worst = int(np.argmax(samples))
                     panels.mark(axes, view, float(time[worst]), float(samples[worst]), quantity)
-            panels.draw_events(axes, view, records[0], named=column == 0)
+            draw_events(axes, view, records[0], named=column == 0)
             style.dress(axes)
             panels.time_axis(axes, view, labelled=row == 1)
         panels.scale_panels(list(grid[row]))
