@@ -51,7 +51,7 @@ def _parameters(values: Mapping[str, Value]) -> BearingParameters:
     if parameters.arcs:
         raise ValueError(
             "bearing parameter bore: the table film knows the plain bore only; use depth v2, which solves "
-            "any bore in some microseconds"
+            "any bore in some tens of microseconds"
         )
     if parameters.ambient_pressure > 0.0:
         raise ValueError(
