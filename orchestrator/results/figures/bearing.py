@@ -45,6 +45,8 @@ def curves_figure(curves: xr.Dataset, title: str, sommerfeld: float) -> Figure:
     """
     figure = style.new_figure(13.0, 7.4, "Bearing under static load", title)
     panels = figure.subplots(2, 3).ravel()
+    # pads on springs recede, and the journal goes further than the clearance
+    furthest = max(1.0, float(curves["eccentricity"].max(skipna=True)))
     for axes, (name, scale, label, logarithmic) in zip(panels, _CURVES, strict=True):
         for depth, colour, width in _lines(curves):
             line = curves.sel(depth=depth)
@@ -56,7 +58,7 @@ def curves_figure(curves: xr.Dataset, title: str, sommerfeld: float) -> Figure:
             axes.plot(*place, "o", color=colour, markersize=5.0, markeredgecolor="#222222")
         if logarithmic:
             axes.set_yscale("log")
-        axes.set_xlim(0.0, 1.0)
+        axes.set_xlim(0.0, furthest)
         axes.set_xlabel("relative eccentricity [1]")
         axes.set_ylabel(label)
         style.dress(axes)
@@ -90,9 +92,9 @@ def coefficients_figure(curves: xr.Dataset, over_speed: xr.Dataset, title: str, 
         line = over_speed.sel(depth=depth)
         panels[1, 2].plot(line["rotation"].values, 1e6 * line["h_min"].values, color=colour, linewidth=width)
     panels[0, 2].set_ylabel("threshold of a rigid rotor, ω √(C/g) [1]")
-    panels[0, 2].set_title(
-        "stable below; above the last point stable at any speed", fontsize=style.FONT, loc="left"
-    )
+    bounded = bool(np.isfinite(curves["threshold"].values).any())
+    words = "stable below; above the last point stable at any speed" if bounded else "stable at any speed"
+    panels[0, 2].set_title(words, fontsize=style.FONT, loc="left")
     panels[1, 2].set_ylabel("least gap [µm]")
     for axes in panels[0]:
         axes.axvline(sommerfeld, color=style.EVENT, linewidth=0.9, linestyle=":")
