@@ -64,8 +64,9 @@ def run(
     force = carried * np.asarray(along, dtype=float)
     values = bearing_parameters(seat, case.scenario.film)
     found = study_bearing(values, seat.clearance, force, speed, depths or film_depths())
+    whose = seat.name if seat.name == train.name else f"{seat.name} of {train.name}"
     title = (
-        f"{seat.name} of {train.name}: d {seat.diameter:g} m, b/d {seat.width / seat.diameter:.3g}, "
+        f"{whose}: d {seat.diameter:g} m, b/d {seat.width / seat.diameter:.3g}, "
         f"C {1e6 * seat.clearance:.4g} µm, {seat.viscosity:g} Pa s, {speed / HERTZ:g} Hz, "
         f"{abs(carried) / 1e3:.4g} kN at {np.degrees(np.arctan2(force[1], force[0])):.4g} deg"
     )
