@@ -58,9 +58,10 @@ def table(variables: Iterable[Variable], of_train: re.Pattern[str] | None = None
         units = ", ".join(dict.fromkeys(_unit(v) for v in group))
         start = "of the train" if of_train and of_train.fullmatch(name) else _start(first)
         meaning = re.sub(r"-d\w+/d\w+", lambda m: _tangent(m[0]), first.description)
-        meaning = re.sub(r"shaft node 1\b", "shaft node k", meaning)
+        meaning = re.sub(r"shaft node 1\b", "shaft node k", meaning).replace("of pad 1 ", "of pad p ")
+        causality = f"{first.causality}, tunable" if first.tunable else first.causality
         meaning = meaning.replace("|", r"\|")
-        lines.append(f"| `{name}` | {first.causality} | {units} | {start} | {meaning} |")
+        lines.append(f"| `{name}` | {causality} | {units} | {start} | {meaning} |")
     return "\n".join(lines)
 
 
@@ -90,7 +91,7 @@ def _start(variable: Variable) -> str:
 def tables() -> Iterator[tuple[str, str]]:
     """Yield the tables of the page by name."""
     yield "bearing", table(port.BEARING)
-    yield "rotor", table(port.rotor(["bearing i"], ["wheel j"], 1), _OF_TRAIN)
+    yield "rotor", table(port.rotor(["bearing i"], ["wheel j"], 1, moving=True), _OF_TRAIN)
 
 
 def with_tables(text: str) -> str:

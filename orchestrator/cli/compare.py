@@ -17,8 +17,8 @@ COMPARE_HELP = (
     "engineer would have concluded from each depth, and the folders of the runs. The bundled "
     "scenario is held against the paper's study: 14 rows (paper, here, verdict, and the reason for what is "
     "missed).\n\n"
-    "[bold]--check[/bold] repeats everything with twice the film resolution and half the macro step and "
-    "tells what changes."
+    "[bold]--check[/bold] repeats everything with twice the film resolution and half the macro step, "
+    "and again ([bold]--doublings[/bold]), and tells what changes."
 )
 COMPARE_EPILOG = """\
 [bold]Exit status[/bold]

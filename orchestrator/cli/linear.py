@@ -272,11 +272,8 @@ def _add(
     app: typer.Typer, name: str, text: str, example: str, options: type, work: Callable[..., int]
 ) -> None:
     shown = f"bladeloss {name}"
-    epilog = (
-        "[bold]Examples[/bold]\n\n"
-        f"  {shown:44s} the reference scenario\n"
-        f"  {'bladeloss ' + example:44s} another\n\n{EXIT}"
-    )
+    own = "the first bearing of the train turbine" if options is BearingOptions else "the reference scenario"
+    epilog = f"[bold]Examples[/bold]\n\n  {shown:44s} {own}\n  {'bladeloss ' + example:44s} another\n\n{EXIT}"
     app.command(name=name, help=text, epilog=epilog)(command_of(options, work))
 
 

@@ -8,7 +8,7 @@ from rich.table import Table
 from orchestrator.results.quantities import HERTZ
 from orchestrator.scenario.file import bundled_scenarios, load_scenario, read_train
 from rotor_fmu.linear.analysis import target_loads
-from rotor_fmu.train.file import bundled_trains, load_train
+from rotor_fmu.train.file import bundled_trains, derived_trains, load_train
 from rotor_fmu.train.train import Coupling, Shoulder, Train
 
 
@@ -17,7 +17,7 @@ def show(console: Console) -> None:
     scenarios = Table.grid(padding=(0, 2))
     for name in bundled_scenarios():
         scenario = load_scenario(name)
-        what = "; ".join(f"{event.text}, {event.time:g} s" for event in scenario.events) or "no event"
+        what = "; ".join(f"{event.text} {event.when}" for event in scenario.events) or "no event"
         scenarios.add_row(
             f"[bold]{name}[/bold]", scenario.title, f"train {scenario.train}, {scenario.end:g} s, {what}"
         )
@@ -33,6 +33,8 @@ def show(console: Console) -> None:
         )
         facts.add_row("bearings", ", ".join(seat.name for seat in train.bearings))
         facts.add_row("wheels", ", ".join(wheel.name for wheel in train.wheels))
+        if others := derived_trains(name):
+            facts.add_row("derived", ", ".join(others))
         console.print(facts, "", sep="\n", highlight=False)
 
 

@@ -28,7 +28,7 @@ class Event(Model):
     Attributes
     ----------
     kind : str
-        Names the class in a scenario.
+        What kind of event it is.
     time : float
         Instant in s; it need not fall on a macro step.
     label, noun : str
@@ -49,6 +49,11 @@ class Event(Model):
     def text(self) -> str:
         """What happens, and where."""
         return self.label
+
+    @property
+    def when(self) -> str:
+        """When it happens, in words."""
+        return f"at {self.time:g} s"
 
     def parameters(self, train: Train) -> Values:
         """Parameters of the rotor that it sets."""
@@ -85,6 +90,16 @@ class Conditional(Event):
         if given != 1:
             raise ValueError("allowed is one of time, vibration, least_gap and speed")
         return self
+
+    @property
+    def when(self) -> str:
+        """When it happens, in words."""
+        lasting = f" for {self.lasting:g} s" if self.lasting else ""
+        if self.vibration is not None:
+            return f"when a journal moves more than {1e6 * self.vibration:g} µm{lasting}"
+        if self.least_gap is not None:
+            return f"when a gap is below {1e6 * self.least_gap:g} µm{lasting}"
+        return super().when if self.speed is None else f"at {self.speed:g} rad/s{lasting}"
 
     def at(self, time: float) -> Conditional:
         """The event as it happened [s]."""

@@ -70,6 +70,12 @@ def bundled_trains() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in DATA.glob("*/train.toml")))
 
 
+def derived_trains(train: str) -> tuple[str, ...]:
+    """Names of the trains that come with the package and are derived from one, as ``turbine/lemon``."""
+    found = (path.stem for path in sorted((DATA / train).glob("*.toml")))
+    return tuple(f"{train}/{name}" for name in found if name not in ("train", "limits"))
+
+
 def bundled_file(name: str) -> Path | None:
     """File of a bundled train, as ``turbine``, or of one derived from it, as ``turbine/lemon``, or None."""
     train, slash, derived = name.partition("/")

@@ -130,7 +130,7 @@ def main() -> None:
     for title, source in (("Rigid shells", "inertia"), ("Lined shells", "lined")):
         case = prepare(source, end=END, event={"time": LOSS}, record={"interval": STEP})
         record = run(case).result.record
-        _table(f"{title}, scenario inertia {1e3 * (END - LOSS):g} ms through the loss", record)
+        _table(f"{title}, scenario {source} {1e3 * (END - LOSS):g} ms through the loss", record)
 
 
 if __name__ == "__main__":
