@@ -45,6 +45,7 @@ LONG_FUNCTIONS: set[str] = set()
 OF_PHYSICS_FOR_THE_MASTER = {
     "bearing_fmu.depths",
     "bearing_fmu.film_map",  # a picture: what a unit does not give
+    "bearing_fmu.kernels.kept",  # files of compiled code
     "bearing_fmu.recipe",
     "bearing_fmu.static.curves",
     "rotor_fmu.recipe",

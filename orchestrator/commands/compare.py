@@ -60,7 +60,8 @@ class CompareRequest:
     jobs : int or None
         Runs at the same time; None: one a core.
     doublings : int
-        How often everything is repeated, each time with twice the film resolution and half the macro step.
+        How often everything is repeated, each time with twice the film resolution, as far as films can have
+        it, and half the macro step.
     formats : sequence of str
         File types of the figures; none for no figures.
     budget : float
@@ -125,7 +126,7 @@ def run(
             if all(done.complete for done in (found, *fine)):
                 text = settings_of(one).text()
                 console.print(f"Check with {text}", highlight=False)
-                place = runs / CHECK / f"{one.film.columns}x{one.film.rows}"
+                place = runs / CHECK / f"{one.film.columns}x{one.film.rows}-{1e3 * one.step:g}ms"
                 fine.append(run_depths(one, train, depths, place, means, console)[0])
         report = (PaperReport if speaks_of(scenario, depths) else Report)(found, fine)
         failed = [item for one in (found, *fine) for item in one.ended.items() if not item[1].ok]

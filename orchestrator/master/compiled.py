@@ -1,17 +1,23 @@
 """Small loops over the bearings, compiled: a call of numpy on eleven numbers costs as much as the whole loop.
 
-Each is kept next to its source and compiled anew when that file changes, so that it draws on nothing but
-functions and numbers of its own file, on `dot`, and on what it is given.
+Each is kept next to its source and compiled anew when that file or this one changes, so that it draws on
+nothing but functions and numbers of its own file, on `dot`, and on what it is given.  What is kept carries
+its digest: a file that is damaged counts as missing.
 """
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
+
+from bearing_fmu.kernels.kept import KeptFile
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
@@ -20,9 +26,21 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
 def compiled(function: _Function) -> _Function:
     """Compile a function at its first call; as it stands it is ``py_func``."""
     try:
-        return njit(cache=True, **_OPTIONS)(function)  # type: ignore[no-any-return]
+        dispatcher: Any = njit(cache=True, **_OPTIONS)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
+    cache = dispatcher._cache
+    files = Path(__file__), Path(function.__code__.co_filename)
+    stamp = "".join(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)
+    cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, stamp)
+    save = cache.save_overload
+
+    def save_if_possible(*arguments: Any) -> None:
+        with suppress(OSError):  # disk full: compiled it is all the same
+            save(*arguments)
+
+    cache.save_overload = save_if_possible
+    return dispatcher  # type: ignore[no-any-return]
 
 
 def inlined(function: _Function) -> _Function:

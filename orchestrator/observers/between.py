@@ -124,7 +124,7 @@ class Between:
     def kept(self, row: int, waits: Mask, told: Callable[[], Array], motion: Callable[[], Array]) -> int:
         """Note a record, for which some bearings wait, with what all tell and their motion where they stand.
 
-        Returns the number of records that are complete.
+        Returns `complete`.
         """
         if waits.any():
             fresh = waits & (self.first == row)
@@ -137,7 +137,7 @@ class Between:
     ) -> int:
         """Note that these bearings stand at `end`, where there are so many records.
 
-        Returns the number of evaluations that end a wait and are to be looked at, see `fill`.
+        Returns the number of steps with evaluations that end a wait and are to be looked at, see `fill`.
         """
         if (waited := done & (self.first < rows)).any():
             k = waited.nonzero()[0]
@@ -176,7 +176,7 @@ class Between:
 
     @property
     def complete(self) -> int:
-        """The number of records that nothing waits for."""
+        """The number of records that nothing waits for; some may be left to `fill`."""
         return int(self.first.min())
 
     def arrays(self) -> dict[str, NDArray[Any]]:
@@ -187,7 +187,7 @@ class Between:
         }  # fmt: skip
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> int:
-        """Go on from what `arrays` returned, its names behind `between.`; returns as `kept`."""
+        """Go on from what `arrays` returned, its names behind `between.`; returns `complete`."""
         self.first[:], self.stands[:] = arrays["between.first"], arrays["between.stands"]
         self._values[:], self._motion[:] = arrays["between.values"], arrays["between.motion"]
         self._bores.offsets[:] = arrays["between.offsets"]

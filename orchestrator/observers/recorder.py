@@ -106,6 +106,7 @@ class Recorder(Observer):
         on_foundation = [port.at_bearing(i, name) for i in range(1, moving + 1) for name in port.FOUNDATION]
         self._foundation_block = Block(system.rotor, on_foundation, self._foundation_values.reshape(-1))
         self._noted = Noted(bearings)
+        self._frozen: int | None = None
         self._shaft_values = np.empty(len(SHAFT) + len(FIELDS) * nodes)
         names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
         self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
@@ -166,7 +167,9 @@ class Recorder(Observer):
         return np.hstack([self._system.responses, self._details_now])
 
     def _fill(self) -> None:
-        """Complete what waited."""
+        """Complete what waited; a copy is complete."""
+        if self._frozen is not None:
+            return
         kept = self.rows
 
         def motion(rows: NDArray[np.intp], bearing: NDArray[np.intp]) -> Array:
@@ -190,6 +193,8 @@ class Recorder(Observer):
     @property
     def size(self) -> int:
         """Records that are complete, among those that are not forgotten."""
+        if self._frozen is not None:
+            return self._frozen
         self._fill()
         return self._between.complete
 
@@ -216,8 +221,9 @@ class Recorder(Observer):
 
     def copy(self) -> Recorder:
         """What is complete now, whatever the run goes on to do; views."""
-        self._fill()
-        return copy(self)
+        whole = copy(self)
+        whole._frozen, whole.rows = self.size, self.rows.copy()
+        return whole
 
     @property
     def between(self) -> float:
@@ -275,6 +281,7 @@ class Recorder(Observer):
     @property
     def peak_times(self) -> Array:
         """Their instants in s, (bearings, 9)."""
+        self._fill()
         return self._noted.times
 
     def shaft(self, name: str) -> Array:

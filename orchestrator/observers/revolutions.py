@@ -85,13 +85,13 @@ class Revolutions(Observer):
         motion = self._system.motion[:, :2]
         first = self._angle
         last = first + abs(self._system.speed) * (end - start)
-        if last >= _TURN:
+        while last >= _TURN:
             share = (_TURN - first) / (last - first)
             before = self._motions[self._held - 1]
             between = before + share * (motion - before)
             self._hold(_TURN, between)
             self._close(start + share * (end - start))
-            last -= _TURN
+            first, last, start = 0.0, last - _TURN, start + share * (end - start)
             self._renew(0.0, between)
         self._hold(last, motion)
         self._angle = last

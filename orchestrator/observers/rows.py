@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -45,10 +46,17 @@ class Rows:
         return row
 
     def forget(self, count: int) -> None:
-        """Forget the first rows."""
-        for array in self._arrays.values():
-            array[: self.held - count] = array[count : self.held].copy()
+        """Forget the first rows; copies keep them."""
+        for name, old in self._arrays.items():
+            self._arrays[name] = new = np.empty_like(old)
+            new[: self.held - count] = old[count : self.held]
         self.held, self.forgotten = self.held - count, self.forgotten + count
+
+    def copy(self) -> Rows:
+        """The rows that are here now, whatever is kept or forgotten later; views."""
+        whole = copy(self)
+        whole._arrays = dict(self._arrays)
+        return whole
 
     @property
     def nbytes(self) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -136,12 +135,19 @@ def run_depths(
 
 
 def refine(scenario: Scenario, doublings: int = 1) -> list[Scenario]:
-    """Scenarios of twice the film resolution, as far as films can have it, and half the macro step each."""
+    """Scenarios of twice the film resolution, as far as films can have it, and half the macro step each.
+
+    Raises
+    ------
+    OrchestratorError
+        No film can be finer.
+    """
+    most = {key: int(port.bearing_parameter(key).maximum or 0) for key in ("columns", "rows")}
     found = [scenario]
     for _ in range(doublings):
-        film = {
-            key: min(2 * getattr(found[-1].film, key), int(port.bearing_parameter(key).maximum or math.inf))
-            for key in ("columns", "rows")
-        }
+        film = {key: min(2 * getattr(found[-1].film, key), most[key]) for key in most}
+        if film == {key: getattr(found[-1].film, key) for key in most}:
+            shown = ", ".join(f"film.{key} = {value}" for key, value in film.items())
+            raise OrchestratorError(f"--check: {shown} is the finest film; allowed are fewer --doublings")
         found.append(with_overrides(at_half_step(found[-1]), {"film": film}))
     return found[1:]

@@ -17,7 +17,8 @@ def test_every_variable_stands_in_the_tables(small_train):
     indices = {"bearing": "i", "wheel": "j", "node": "k", "K": "r,c", "C": "r,c", "pad_tilt": "p"}
     for variable in (*port.BEARING, *port.rotor(*names, small_train.nodes)):
         name = re.sub(r"(\w+)\[[\d,]+\]", lambda m: f"{m[1]}[{indices[m[1]]}]", variable.name)
-        assert f"| `{name}` | {variable.causality} |" in text
+        tunable = ", tunable" if variable.tunable else ""
+        assert f"| `{name}` | {variable.causality}{tunable} |" in text
 
 
 def test_every_variable_has_a_meaning_and_the_dimensionless_are_known():

@@ -44,8 +44,9 @@ class Built:
     last : float
         Largest value of its radial coordinate.
     typical, largest : float
-        Deviation of its force from that of V2 on a finer grid as a share of the force, over random states
-        with gaps down to 1e-3 of the clearance: met by 99 of 100 of them, and the largest.
+        Deviation of its force from that of V2 on a finer grid (with Reynolds' condition on its own) as a
+        share of the force, over random states with gaps down to 1e-3 of the clearance: met by 99 of 100 of
+        them, and the largest.
     columns : int
         Of that grid.
     """

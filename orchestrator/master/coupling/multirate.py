@@ -181,4 +181,4 @@ class Multirate:
         """Let the last step count, if there is one that was not refused."""
         if self._taken:
             room.rates, room.next, self._taken = room.next, room.rates, False
-            room.again[:] = False
+            room.again[:] = room.rough[:] = False

@@ -74,7 +74,8 @@ def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Fig
     degrees = math.degrees(probes_of(records[0])[0])
     sizes.yaxis.set_major_formatter(_PLAIN)
     top = float(sizes.dataLim.ymax)
-    sizes.set_ylim(max(float(sizes.dataLim.ymin), 1e-4 * top), 2.0 * top)
+    if math.isfinite(top):  # else no turn has an order yet
+        sizes.set_ylim(max(float(sizes.dataLim.ymin), 1e-4 * top), 2.0 * top)
     sizes.set_ylabel(f"amplitude at {degrees:.0f}\u00b0 [\u00b5m]")
     phase.set_ylabel("phase of 1X [\u00b0]")
     phase.set_ylim(-180.0, 180.0)
@@ -82,7 +83,7 @@ def over_speed(records: Sequence[xr.Dataset], bearing: str | None = None) -> Fig
     gaps.set_ylabel("least gap in a turn [\u00b5m]")
     gaps.axhline(0.0, color=style.CONTACT, linewidth=0.8)
     contacts.set_ylabel("contact force [kN]")
-    if contacts.dataLim.ymax > 0.0:
+    if any((record["revolution_contact_force"].sel(bearing=bearing) > 0.0).any() for record in records):
         contacts.set_ylim(bottom=0.0)
     else:
         contacts.set_ylim(0.0, 1.0)

@@ -118,13 +118,15 @@ def waterfall(records: Sequence[xr.Dataset], bearing: str | None = None) -> Figu
         look = {"norm": norm, "cmap": "viridis", "shading": "nearest", "rasterized": True}
         mesh = axes.pcolormesh(fall.frequency, fall.time, values, **look)
         _draw_orders(axes, record)
-        axes.set_ylim(fall.time[0], fall.time[-1])
         panel = f"{style.row_prefix(records, record, bearing)}probe at "
         angle = math.degrees(journals.probes_of(record)[0])
         axes.set_title(f"{panel}{angle:.0f}°\n", loc="left", fontsize=style.FONT)
         axes.set_xlabel("frequency [Hz]", fontsize=style.FONT)
         axes.tick_params(labelsize=style.FONT - 1)
     grid[0].set_ylabel("time [s]", fontsize=style.FONT)
+    drawn = [fall.time for fall in found if fall is not None and fall.time is not None]
+    if drawn:
+        grid[0].set_ylim(min(time[0] for time in drawn), max(time[-1] for time in drawn))
     if mesh is not None:
         bar = figure.colorbar(mesh, ax=list(grid), extend="min", aspect=30, pad=0.02)
         bar.ax.yaxis.set_major_formatter(_PLAIN)

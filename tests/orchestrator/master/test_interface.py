@@ -70,18 +70,19 @@ def test_extremes_are_the_least_gaps_and_the_largest_of_all_else_with_their_inst
     noted = Noted(N)
     for k, step in enumerate(steps):
         noted.note(float(k), step, defects[k], lengths[k], evaluated[k])
-    every = np.stack([extremes_of(step) for step in steps])
-    every[..., -2], every[..., -1] = np.hypot(*defects.T[:2]).T, np.hypot(*lengths.T[:2]).T
+    outputs = ("h_min", "h_min_centre", "contact_force", "contact_pressure", "wiped")
+    told = [steps[..., RESPONSE[name]] * (-1.0 if name.startswith("h_") else 1.0) for name in outputs]
+    sizes = [
+        np.hypot(*pair.T).T for pair in (steps[..., :2], steps[..., 2:4], defects[..., :2], lengths[..., :2])
+    ]
+    every = np.stack([*sizes[:2], *told, *sizes[2:]], axis=-1)
     every[..., :-1][~evaluated] = -np.inf
     np.testing.assert_array_equal(noted.peaks, every.max(axis=0))
     np.testing.assert_array_equal(noted.since, noted.peaks)
     known = noted.peaks > -np.inf
     np.testing.assert_array_equal(noted.times[known], every.argmax(axis=0)[known])
-    gap, pressure = EXTREMES.index("least_gap"), EXTREMES.index("contact_pressure")
-    np.testing.assert_array_equal(extremes_of(steps[0])[:, gap], -steps[0][:, RESPONSE["h_min"]])
-    np.testing.assert_array_equal(
-        extremes_of(steps[0])[:, pressure], steps[0][:, RESPONSE["contact_pressure"]]
-    )
+    gap = EXTREMES.index("least_gap")
+    np.testing.assert_array_equal(extremes_of(steps[0])[:, :7], np.stack([*sizes[:2], *told], axis=-1)[0])
     noted.since[:] = -np.inf
     noted.note(9.0, np.full_like(steps[0], np.nan))
     assert np.isnan(noted.since[:, gap]).all() and not np.isnan(noted.peaks).any()

@@ -58,6 +58,18 @@ def uneven(store, toy_fmus):
     return system
 
 
+def test_what_a_step_that_counted_left_is_not_due_in_the_repetition_of_the_next(store, toy_fmus):
+    system = uneven(store, toy_fmus)
+    system.set_scale(LOAD, [1.0, 1.0])
+    scheme = Multirate(1e-3)
+    scheme.advance(system, 0.0, 1e-4)
+    scheme._room.rough[:] = True  # as of a jump, which is accepted
+    scheme._at(system, 1e-4, 1e-4)
+    scheme.refuse()
+    assert not scheme._room.again.any()
+    system.close()
+
+
 def test_the_calm_bearing_waits_and_no_unit_steps_twice_over_a_time(store, toy_fmus):
     """Accepted steps of each unit follow one another, and meet common instants."""
     system = uneven(store, toy_fmus)

@@ -96,7 +96,9 @@ def test_a_step_answers_for_bearings_that_stand_at_its_start_and_once_for_others
     again[2] = True
     assert found(0.4) == (pytest.approx(0.8), pytest.approx(0.5))
     defect[0, 0] = np.nan
-    assert np.isnan(known.relative(1.0, 1.0, defect, levers, size, table, again, np.zeros(3), again)).all()
+    assert np.isnan(
+        known.relative(1.0, 1.0, defect, levers, size, table, again, np.zeros(3), np.zeros(3, dtype=bool))
+    ).all()
 
 
 def bent_law(wrench, tangent, before, ratio, where):

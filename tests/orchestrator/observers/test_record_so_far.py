@@ -11,6 +11,7 @@ from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import NotWrittenError
 from orchestrator.observers import checkpoint
 from orchestrator.observers.checkpoint import CheckpointError, Checkpoints
+from orchestrator.observers.recorder import Recorder
 from orchestrator.report.source import load_results
 from orchestrator.results import growing_record
 from orchestrator.results.growing_record import HEAD_FILE, ROWS_FILE, open_growing
@@ -107,6 +108,21 @@ def test_a_run_that_hangs_between_evaluations(toy, tmp_path, monkeypatch):
     for name in ("time", "force", "force_magnitude_max", "least_gap_min"):
         same = whole[name].values[: record.sizes["time"]]
         np.testing.assert_array_equal(record[name].values, same, err_msg=name)
+
+
+def test_a_copy_of_what_is_kept_stays_as_it_is_though_the_run_goes_on(toy, tmp_path, monkeypatch):
+    """As where a unit that was given up comes back."""
+    scenario = toy_scenario(tmp_path, event=BLADE, end=0.05, coupling="multirate", tolerance=1e-4)
+    execution, copies, sizes, made = Execution(), [], [], Recorder.copy
+    monkeypatch.setattr(Recorder, "copy", lambda self: copies.append(made(self)) or copies[-1])
+
+    def hang(_, time):
+        if time > 0.0135 and not sizes:
+            execution.watchdog.partial("it hangs")
+            sizes.append(len(copies[0].times))
+
+    simulate(scenario, toy, hang, execution)
+    assert len(copies[0].times) == len(copies[0].speeds) == sizes[0] > 2
 
 
 @fault(

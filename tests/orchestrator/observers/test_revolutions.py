@@ -55,6 +55,18 @@ def test_orders_and_extremes_of_a_motion_that_is_known_at_falling_speed():
     assert kept.overall[2, 0, 1] == pytest.approx(2.0 * kept.overall[2, 0, 0], rel=1e-9)
 
 
+def test_a_step_may_hold_several_turns():
+    machine = Machine()
+    kept = Revolutions(machine)
+    kept.begin(None)
+    machine.move(0.05, 100.0)  # 0.8 turns, then 2.4 more
+    kept.watch(0.0, 0.05, None)
+    machine.move(0.15, 100.0)
+    kept.watch(0.05, 0.2, None)
+    np.testing.assert_allclose(kept.times, 2.0 * np.pi / 100.0 * np.arange(1, 4), rtol=1e-12)
+    np.testing.assert_allclose(kept.speeds, 100.0, rtol=1e-12)
+
+
 def test_it_goes_on_where_it_was_saved():
     one, other = Machine(), Machine()
     for machine in (one, other):

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from orchestrator.results.figures.over_speed import has_speeds
+from orchestrator.results.figures.over_speed import has_speeds, over_speed
 from orchestrator.results.journals import probe_spectrum, probe_waterfall
 from orchestrator.results.windows import Window, changing_speed, speed_in
+from tests.orchestrator.results import synthetic_record
 
 TIME = np.arange(0.0, 2.0, 1e-3)
 
@@ -24,6 +25,28 @@ def test_a_speed_changes_or_stays():
     steady = xr.Dataset(coords={"time": TIME}, attrs={"speed": -157.0})
     assert speed_in(steady, Window(0.0, 1.0)) == 157.0
     assert speed_in(falling.assign_attrs(speed=-157.0), Window(1.0, 1.5)) == pytest.approx(132.0, abs=0.02)
+
+
+@pytest.mark.parametrize("turns", [0, 1, 5])
+def test_orders_are_drawn_once_there_are_some(turns):
+    """A run that is interrupted in its first turns has none."""
+    record = synthetic_record.record("v1").isel(time=slice(0, 200))
+    count, names = record.sizes["time"], list(record["bearing"].values)
+    amplitudes = np.full((turns, 3, len(names), 2, 2), 1e-5)
+    amplitudes[:1] = np.nan
+    ends, places = 0.04 * np.arange(1, turns + 1), ("revolution", "bearing")
+    of_turns = {
+        "rotation_speed": ("time", np.linspace(157.0, 140.0, count)),
+        "revolution_amplitude": (("revolution", "order", "bearing", "axis", "part"), amplitudes),
+        "revolution_speed": ("revolution", np.linspace(157.0, 140.0, turns)),
+        "revolution_least_gap": (places, np.full((turns, len(names)), 1e-4)),
+        "revolution_contact_force": (places, np.zeros((turns, len(names)))),
+    }
+    coordinates = {"revolution": ends, "order": [0.5, 1.0, 2.0], "part": ["real", "imaginary"]}
+    figure = over_speed([record.assign(of_turns).assign_coords(coordinates)], names[0])
+    sizes, _, _, contacts = figure.axes
+    assert np.isfinite(sizes.get_ylim()).all()
+    assert [text.get_text() for text in contacts.texts] == ["no contact"]
 
 
 @pytest.mark.parametrize(("stride", "drawn"), [(1, True), (30, False)])

@@ -70,7 +70,7 @@ def test_a_comparison_leaves_table_figures_and_runs(compared):
     others = [MANIFEST, "comparison.csv", "comparison.json", "comparison.txt"] + [
         f"figures/{name}" for name in FIGURES
     ]
-    expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/48x8/{run}")]
+    expected = others + [name for run in (*runs, COMPARED) for name in (run, f"check/48x8-0.1ms/{run}")]
     assert files(folder / "out") == sorted(expected)
     assert sorted(path.name for path in folder.iterdir()) == ["fmus", "out", "short.toml"]
     for depth in DEPTHS:
@@ -234,6 +234,7 @@ def test_a_finer_scenario_has_twice_the_film_and_half_the_step():
         (["--bearing", "middle"], "analysed_bearing = 'middle': no such bearing"),
         (["--columns", "4"], "film.columns = 4"),
         (["--rows", "40"], "film.rows = 40"),
+        (["--columns", "512", "--rows", "30", "--check"], "film.columns = 512, film.rows = 30 is the finest"),
         (["--out", "short.toml"], "is a file"),
         (["--jobs", "0"], "--jobs"),
         (["--depth", "v9"], "--depth v9"),

@@ -47,5 +47,8 @@ def test_spectra_and_waterfall_read_the_unbalance(record):
         "--", "-",
     }  # fmt: skip
     (mesh,) = panel_axes(waterfall([record], BEARING))[0].collections
+    both = [[record, record.isel(time=slice(0, 700))], [record.isel(time=slice(0, 700)), record]]
+    limits = {axes.get_ylim() for pair in both for axes in panel_axes(waterfall(pair, BEARING))[:2]}
+    assert limits == {panel_axes(waterfall([record], BEARING))[0].get_ylim()}  # of the longer one
     loudest = mesh.get_array().argmax() % mesh.get_array().shape[1]
     assert loudest == pytest.approx(25.0 * 0.32 - 1, abs=0.1)  # lines 3.125 Hz apart from the first on
