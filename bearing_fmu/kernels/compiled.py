@@ -15,13 +15,12 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
 from numba import config, njit
 
-from bearing_fmu.kernels.kept import KeptFile
+from bearing_fmu.kernels.kept import keep_safely
 
 try:
     from bearing_fmu.kernels.inlined import PARTS, read_as_parts
@@ -110,17 +109,9 @@ def _compile(function: _Function, more: dict[str, Any]) -> _Function:
         dispatcher: Any = njit(**_OPTIONS, **more)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**{**_OPTIONS, "cache": False}, **more)(function)  # type: ignore[no-any-return]
-    cache = dispatcher._cache
-    cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, _stamp(function))
+    cache = keep_safely(dispatcher, _stamp(function))
     # numba's own key holds what a function draws on, which is another object in every process
     cache._index_key = lambda signature, codegen: (signature, codegen.magic_tuple())
     if PARTS and PARTS.items() <= more.items():
         read_as_parts(cache)
-    save = cache.save_overload
-
-    def save_if_possible(*arguments: Any) -> None:
-        with suppress(OSError):  # disk full: compiled it is all the same
-            save(*arguments)
-
-    cache.save_overload = save_if_possible
     return dispatcher  # type: ignore[no-any-return]

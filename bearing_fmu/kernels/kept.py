@@ -68,6 +68,23 @@ def _read(path: str) -> bytes | None:
     return content if hashlib.sha256(content).digest() == kept[:_DIGEST] else None
 
 
+def keep_safely(dispatcher: Any, stamp: str) -> Any:
+    """Let a compiled function be kept in a `KeptFile` of that stamp, and return its cache.
+
+    A disk that is full does not matter: compiled it is all the same.
+    """
+    cache = dispatcher._cache
+    cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, stamp)
+    save = cache.save_overload
+
+    def save_if_possible(*arguments: Any) -> None:
+        with suppress(OSError):
+            save(*arguments)
+
+    cache.save_overload = save_if_possible
+    return cache
+
+
 @contextmanager
 def _alone(folder: Path) -> Iterator[None]:
     """Keep other processes away from a folder, as far as the system can."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,7 +16,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.kept import KeptFile
+from bearing_fmu.kernels.kept import keep_safely
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
@@ -29,17 +28,9 @@ def compiled(function: _Function) -> _Function:
         dispatcher: Any = njit(cache=True, **_OPTIONS)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
-    cache = dispatcher._cache
     files = Path(__file__), Path(function.__code__.co_filename)
     stamp = "".join(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)
-    cache._cache_file = KeptFile(cache.cache_path, cache._impl.filename_base, stamp)
-    save = cache.save_overload
-
-    def save_if_possible(*arguments: Any) -> None:
-        with suppress(OSError):  # disk full: compiled it is all the same
-            save(*arguments)
-
-    cache.save_overload = save_if_possible
+    keep_safely(dispatcher, stamp)
     return dispatcher  # type: ignore[no-any-return]
 
 
