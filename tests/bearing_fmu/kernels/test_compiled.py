@@ -62,7 +62,7 @@ def test_nowhere_to_keep_compiled_code(folder):
     "machine",
     "a full disk when numba keeps its compiled kernels",
     "they are used all the same, and compiled again in the next process; no error",
-    guard="bearing_fmu.kernels.compiled:_compile",
+    guard="bearing_fmu.kernels.kept:keep_safely",
 )
 def test_no_room_to_keep_compiled_code(folder):
     full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, -1))\n"

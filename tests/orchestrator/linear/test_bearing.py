@@ -77,7 +77,7 @@ def test_a_bearing_of_its_own_file(tmp_path):
     folder = tmp_path / "out"
     assert investigate("tests/examples/bearing/dam.toml", folder, depths=("v2",)) == 0
     text = (folder / "bearing.txt").read_text()
-    assert "dam of dam: d 0.2 m" in text and "50 Hz, 12 kN" in text
+    assert "dam: d 0.2 m" in text and "50 Hz, 12 kN" in text
     assert "12 kN at -90 deg" in text
     film = xr.load_dataset(folder / "pressure.nc")
     dam = film["pressure"].sel(angle=slice(60.0, 170.0))
