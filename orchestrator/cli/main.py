@@ -19,9 +19,8 @@ from orchestrator.cli import report as cli_report
 from orchestrator.cli import resume as cli_resume
 from orchestrator.cli import run as cli_run
 from orchestrator.cli import study as cli_study
-from orchestrator.cli.options import (
-    guarded,
-)
+from orchestrator.cli.options import guarded
+from orchestrator.cli.unneeded import hidden
 from orchestrator.cli.wrong_use import Commands
 
 app = typer.Typer(
@@ -119,7 +118,7 @@ def main() -> None:
     """Entry point of the command."""
     from orchestrator.case.watched import command
 
-    with command():
+    with command(), hidden():
         sys.exit(app())
 
 

@@ -78,6 +78,9 @@ def study(options: StudyOptions) -> int:
     """Carry out a study, see `STUDY_HELP`."""
     from rich.console import Console
 
+    from orchestrator.cli.unneeded import found
+
+    found()  # Dask, before it is looked for
     from orchestrator.commands.study import run
     from orchestrator.fmi.folder import fmu_folder
     from orchestrator.results.folder import named

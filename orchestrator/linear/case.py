@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
@@ -27,6 +26,7 @@ from orchestrator.linear.operating_point import (
     operating_point,
     over_speed,
 )
+from orchestrator.results.figures.save import save
 from orchestrator.results.files import room_for
 from orchestrator.results.folder import check_folder, named, named_after
 from orchestrator.results.record_files import netcdf
@@ -273,11 +273,10 @@ def write_results(
             say(Console(file=file, width=120), first, shown)
         written.append(f"{request.command}.txt")
         for name, figure in drawn.items():
-            for kind in request.formats if figure is not None else ():
-                assert figure is not None
-                FigureCanvasAgg(figure)
-                figure.savefig(fresh / f"{name}.{kind}")
-                written.append(f"{name}.{kind}")
+            names = [f"{name}.{kind}" for kind in request.formats] if figure is not None else []
+            if figure is not None:
+                save(figure, [fresh / name for name in names])
+            written += names
     say(case.console, first, shown)
     for name in written:
         case.console.print(str(request.folder / name), highlight=False, soft_wrap=True)

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import matplotlib
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from orchestrator.results.figures.deformed_train import deformed_train
 from orchestrator.results.figures.film import film_maps
@@ -18,6 +17,7 @@ from orchestrator.results.figures.least_gap import least_gap
 from orchestrator.results.figures.orbits import orbits
 from orchestrator.results.figures.over_speed import has_speeds, over_speed
 from orchestrator.results.figures.overview import overview
+from orchestrator.results.figures.save import save
 from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_amplitude
 from orchestrator.results.figures.spectra import spectra, waterfall
 from orchestrator.results.figures.supports import has_supports, supports
@@ -64,11 +64,9 @@ def write_figures(
     written = []
     with own_settings():
         for name, figure in figures_of(records, train, bearing):
-            FigureCanvasAgg(figure)
-            for kind in formats:
-                path = folder / f"{name}.{kind}"
-                figure.savefig(path)
-                written.append(path)
+            paths = [folder / f"{name}.{kind}" for kind in formats]
+            save(figure, paths)
+            written += paths
     return written
 
 

@@ -57,6 +57,24 @@ def test_nothing_is_imported_before_it_is_needed(module, heavy):
     assert done.stdout == "[]\n"
 
 
+def test_libraries_that_only_a_study_needs_are_hidden_from_others():
+    """Even where they are installed: xarray and pint import them otherwise, for half a second."""
+    code = """
+import sys
+from orchestrator.cli.unneeded import found, hidden
+sys.modules["sparse"] = sys  # stands for one that somebody imported before
+with hidden():
+    import pint, xarray
+    xarray.Dataset({"any": ("sample", [0.0])})
+    print([name for name in sys.modules if name.startswith(("dask", "cupy")) and sys.modules[name]])
+    found()
+    print("dask" in sys.modules, sys.modules["sparse"] is sys)
+print("dask" in sys.modules, sys.modules["sparse"] is sys)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\nFalse True\nFalse True\n"
+
+
 def test_choices_are_those_of_the_scenario():
     assert tuple(cli.Depth) == depths.names()
     assert tuple(cli.Coupling) == scenario.COUPLINGS

@@ -21,14 +21,14 @@ ROOT = Path(__file__).parents[3]
 
 
 def investigate(source, folder, console=None, **options):
-    request = LinearRequest("bearing", source, None, folder, folder, ("png",), False)
-    given = {"name": None, "depths": (), "hertz": None, "load": None} | options
+    given = {"name": None, "depths": (), "hertz": None, "load": None, "formats": ()} | options
+    request = LinearRequest("bearing", source, None, folder, folder, given.pop("formats"), False)
     return run(request, console or Console(quiet=True), **given)
 
 
 def test_every_depth_of_a_bearing_side_by_side(tmp_path):
     folder = tmp_path / "out"
-    assert investigate("small", folder, depths=("v2", "v3")) == 0
+    assert investigate("small", folder, depths=("v2", "v3"), formats=("png",)) == 0
     names = (
         "curves.png",
         "coefficients.png",
