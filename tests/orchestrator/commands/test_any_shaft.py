@@ -172,7 +172,8 @@ def forces(source, method, out):
 @pytest.mark.parametrize("method", METHODS)
 def test_a_run_of_few_shoulders_keeps_them_all(within, method):
     within("three")
-    _, used = forces("s.toml", method, f"run-{method}")
+    Path("brief.toml").write_text(SCENARIO.replace("0.02", "0.002").replace("0.01", "0.001"))
+    _, used = forces("brief.toml", method, f"run-{method}")
     if method != "none":
         assert used == "none; the shaft has 16 degrees of freedom, 220 may be kept"
 

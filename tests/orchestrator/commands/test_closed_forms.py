@@ -11,6 +11,7 @@ from scipy.optimize import minimize_scalar
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
+from orchestrator.linear import case
 from tests.published import published
 
 pytestmark = pytest.mark.no_cover  # lines that other tests run
@@ -65,7 +66,7 @@ def machine(folder, diameter, more=""):
 
 @pytest.fixture(scope="module")
 def commands(tmp_path_factory):
-    """Results of a command on the Jeffcott rotor or the rotor on pedestals."""
+    """Results of a command on the Jeffcott rotor or the rotor on pedestals, without the figures."""
     folder, done = tmp_path_factory.mktemp("closed"), {}
     words = ", ".join(f"{key} = {list(value)}" for key, value in PEDESTAL.items())
     machine(folder / "jeffcott", 0.06)
@@ -75,7 +76,9 @@ def commands(tmp_path_factory):
         out = folder / f"{name}-{command}"
         if out not in done:
             arguments = [command, str(folder / name / "s.toml"), *options, "--out", str(out)]
-            result = CliRunner().invoke(app, arguments, env={"COLUMNS": "150", "TERM": "dumb"})
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(case, "save", lambda *_: None)
+                result = CliRunner().invoke(app, arguments, env={"COLUMNS": "150", "TERM": "dumb"})
             assert result.exit_code == 0, result.output
             done[out] = result.output
         with xr.open_dataset(out / f"{file or command}.nc", engine="h5netcdf") as data:

@@ -7,6 +7,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
+from orchestrator.linear import case
 from tests.rotor_fmu.published import DAMPED, FRISWELL, LALANNE, OVERHUNG
 
 pytestmark = pytest.mark.no_cover  # lines that other tests run
@@ -14,8 +15,9 @@ pytestmark = pytest.mark.no_cover  # lines that other tests run
 
 @pytest.fixture
 def said(tmp_path, monkeypatch):
-    """Run a command on a rotor in a folder of its own; returns the results of that name."""
+    """Run a command on a rotor in a folder of its own; returns the results of that name. Figures are not drawn."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(case, "save", lambda *_: None)
 
     def run(rotor, rpm, *arguments):
         name = "-".join([arguments[0], *(["supported"] if "--supported" in arguments else [])])

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
 
 from orchestrator.results import quantities
 from orchestrator.results.figures import style
 from orchestrator.results.figures.write import write_figures
 from orchestrator.results.verdicts.judge import worst_bearing
+from tests.faults import fault
 
 BEARING = "LP2-front"
 
@@ -30,10 +32,17 @@ def test_the_worst_bearing_is_shown_unless_one_is_named(record):
     assert worst_bearing([record.assign_attrs(analysed_bearing="HP-front")]) == "HP-front"
 
 
+@fault(
+    "machine",
+    "a matplotlibrc that sets TeX, and a font that there is not",
+    "the figures are drawn as ever",
+    guard="orchestrator.results.figures.write:own_settings",
+)
 @pytest.mark.no_cover  # figures that other tests draw
 def test_writing_gives_every_figure_in_every_format(record, train, tmp_path):
     short = record.isel(time=slice(900, 1100))
-    files = write_figures([short], tmp_path / "figures", train=train, formats=("png",))
+    with rc_context({"text.usetex": True, "font.family": "nonsense"}):
+        files = write_figures([short], tmp_path / "figures", train=train, formats=("png",))
     assert len(files) == 10
     assert all(path.stat().st_size > 1000 for path in files)
     assert quantities.FORCE.unit == "MN"
