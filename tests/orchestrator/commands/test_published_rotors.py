@@ -15,7 +15,7 @@ pytestmark = pytest.mark.no_cover  # lines that other tests run
 
 @pytest.fixture
 def said(tmp_path, monkeypatch):
-    """Run a command on a rotor in a folder of its own; returns the results of that name. Figures are not drawn."""
+    """Run a command on a rotor in a folder of its own, but draw nothing; returns the results of that name."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(case, "save", lambda *_: None)
 
