@@ -45,7 +45,6 @@ LONG_FUNCTIONS: set[str] = set()
 OF_PHYSICS_FOR_THE_MASTER = {
     "bearing_fmu.depths",
     "bearing_fmu.film_map",  # a picture: what a unit does not give
-    "bearing_fmu.kernels.kept",  # files of compiled code
     "bearing_fmu.recipe",
     "bearing_fmu.static.curves",
     "rotor_fmu.recipe",
@@ -63,9 +62,16 @@ OF_PHYSICS_FOR_THE_MASTER = {
     "rotor_fmu.linear.analysis",
 }
 STUDIES_OF_THE_TRAIN = ("orchestrator.study.paper.calibration", "orchestrator.study.paper.experiments")
-OF_FMUS_FOR_PHYSICS = {"fmus.port", "fmus.port.bore", "fmus.port.variable"}
+OF_FMUS_FOR_PHYSICS = {
+    "fmus.port",
+    "fmus.port.bore",
+    "fmus.port.variable",
+    "fmus.kernels.kept",  # files of compiled code
+    "fmus.kernels.loops",
+}
 OF_FMUS_FOR_RECIPES = OF_FMUS_FOR_PHYSICS | {"fmus.build.recipe", "fmus.build.promises"}
 OF_FMUS_FOR_THE_MASTER = {
+    "fmus.kernels.loops",
     "fmus.port",
     "fmus.port.variable",
     "fmus.build.builder",

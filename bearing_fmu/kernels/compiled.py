@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 
 from numba import config, njit
 
-from bearing_fmu.kernels.kept import keep_safely
+from fmus.kernels.kept import keep_safely
 
 try:
     from bearing_fmu.kernels.inlined import PARTS, read_as_parts

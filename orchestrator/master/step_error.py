@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.master.compiled import compiled, dot
+from fmus.kernels.loops import compiled, dot
 
 Array = NDArray[np.float64]
 

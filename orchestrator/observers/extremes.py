@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.master.compiled import compiled
+from fmus.kernels.loops import compiled
 from orchestrator.master.system import RESPONSE
 
 Array = NDArray[np.float64]

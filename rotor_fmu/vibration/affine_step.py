@@ -25,10 +25,10 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
+from rotor_fmu.vibration.law_loops import end_wrenches, react
 from rotor_fmu.vibration.trail import Extrapolation, Trail
 
 Array = NDArray[np.float64]
@@ -49,12 +49,9 @@ class AffineStep:
 
     def __init__(self, bearings: int) -> None:
         loads = 4 * bearings
-        # Views share memory: what is written to one is read as the other.
         self._law = np.zeros((bearings, 4, 8))
-        self._matrix = np.zeros((bearings, 4, loads))
-        self._square = self._matrix.reshape(loads, loads)
-        self._diagonal = self._square.reshape(-1)[:: loads + 1]
-        self._reaction = np.zeros((bearings, 4, 1))
+        self._matrix = np.zeros((loads, loads))
+        self._nothing = np.zeros(loads)
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
@@ -86,7 +83,7 @@ class AffineStep:
             Counted from those of the static equilibrium.
         """
         offset = F0.reshape(-1) - static.wrench
-        w0, w1 = (offset - self._react(journals) for journals in (start, end))
+        w0, w1 = (self._reacting(offset, journals) for journals in (start, end))
         if nearer is None:
             return w0, w1
         moved = nearer * (w1 - w0)
@@ -140,36 +137,31 @@ class AffineStep:
             If the law has no solution at the end of the step, or numbers are not finite.
         """
         offset = F0.reshape(-1) - static.wrench
-        start = offset - self._react(journals)
+        start = self._reacting(offset, journals)
         nearer = self._share(maps.compliance)
         if nearer is None:
             end = maps.coast(motion, start, rotation)
-            compliance = maps.compliance.end
         else:
             end = maps.coast(motion, start - nearer * start, rotation)
             maps.add_end(nearer * start, end)
-            compliance = maps.compliance.end + nearer * (maps.compliance.start - maps.compliance.end)
         if kick is not None:
             end += kick
         journals = journal_motion(coordinates, end, static)
         share = 1.0 if nearer is None else 1.0 - 2.0 * nearer
+        of_start, of_end = maps.compliance.start, maps.compliance.end
+        at_start = self._nothing if nearer is None else nearer
         if beyond is not None:
             journals[:, 4:] += beyond.trail(-share * start).lead.reshape(-1, 4)
-            compliance = compliance.copy()
-            compliance[:, 4:] += beyond.compliance(share).reshape(compliance[:, 4:].shape)
-        wrench = offset - self._react(journals)
-        np.matmul(self._law, compliance, out=self._matrix)
-        self._diagonal += 1.0
-        # The matrix is stored by rows, LAPACK reads columns: factor the transpose, solve transposed.
-        factor, pivots, info = lapack.dgetrf(self._square.T, overwrite_a=1)
-        if info == 0:
-            wrench, info = lapack.dgetrs(factor, pivots, wrench, trans=1)
+            of_end = of_start = of_end + at_start * (of_start - of_end)
+            of_end[:, 4:] += beyond.compliance(share).reshape(of_end[:, 4:].shape)
+        wrench = np.empty_like(offset)
+        solved = end_wrenches(self._law, offset, journals, of_start, of_end, at_start, self._matrix, wrench)
         if nearer is None:
             maps.add_end(wrench, end)
         else:
             maps.add_start(nearer * wrench, end)
             maps.add_end(wrench - nearer * wrench, end)
-        if info != 0 or not np.isfinite(np.dot(end, end)):
+        if not solved or not np.isfinite(np.dot(end, end)):
             raise NoFiniteResult(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
@@ -177,15 +169,16 @@ class AffineStep:
 
     def _share(self, compliance: Compliance) -> Array | None:
         """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
-        numbers = compliance.stiffness_numbers(self._law[:, :, :4])
+        numbers = compliance.stiffness_numbers(self._law)
         if numbers is None or not numbers.max(initial=0.0) > 1.0:
             return None
         return np.repeat(0.5 - 0.5 / np.maximum(numbers, 1.0), 4)
 
-    def _react(self, journals: Array) -> Array:
-        """L y: what stiffness and damping take off F0."""
-        np.matmul(self._law, journals.reshape(-1, 8, 1), out=self._reaction)
-        return self._reaction.reshape(-1)
+    def _reacting(self, offset: Array, journals: Array) -> Array:
+        """Wrenches under the law: an offset less what stiffness and damping take off it."""
+        wrench = np.empty_like(offset)
+        react(self._law, offset, journals.reshape(-1, 8), wrench)
+        return wrench
 
 
 def journal_motion(

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.vibration.detuning import Detuning
+from rotor_fmu.vibration.law_loops import stiffness_numbers
 
 Array = NDArray[np.float64]
 
@@ -46,6 +47,8 @@ class Compliance:
 
     def __post_init__(self) -> None:
         each = np.arange(len(self.end))
+        for name in ("start", "end"):  # compiled loops take arrays of one layout
+            object.__setattr__(self, name, np.ascontiguousarray(getattr(self, name)))
         mixed = self.end[:, :4]
         if self.following is not None:
             mixed = mixed - self.following.reshape(mixed.shape)
@@ -53,8 +56,8 @@ class Compliance:
         object.__setattr__(self, "mixed", np.ascontiguousarray(mixed.reshape(4 * len(each), -1)))
         object.__setattr__(self, "own", own.transpose(0, 2, 1).copy())
 
-    def stiffness_numbers(self, K: Array) -> Array | None:
-        """How far the bearings K, (n_b, 4, 4), are from the stiffness that a linear wrench bears.
+    def stiffness_numbers(self, law: Array) -> Array | None:
+        """How far bearings with laws [K C], (n_b, 4, 8), are from the stiffness that a linear wrench bears.
 
         For one mass m on a spring k it is k H^2 / (6 m) = k S, since a force that rises to f moves it by
         S f = f H^2 / (6 m).  Of many: with g_ij^2 = tr(K_i S_ij K_j S_ji) the sum over j of
@@ -65,20 +68,10 @@ class Compliance:
         Returns
         -------
         ndarray, (n_b,) or None
-            None where a cruder bound, g_ij^2 <= tr(K_i S_ii) tr(K_j S_jj), shows that none is above 1.
+            None where a cruder bound shows that none is above 1.
         """
-        alone = np.sqrt(np.abs(np.einsum("bij,bij->b", K, self.own)))
-        if not alone.max(initial=0.0) * alone.sum() > 1.0:
-            return None
-        count = len(K)
-        product = np.matmul(K, self.mixed.reshape(count, 4, -1)).reshape(4 * count, -1)
-        # Sums over the components, one after the other: numpy takes twice as long over two axes of four.
-        each = (product * product.T).reshape(4 * count, count, 4)
-        each = (each[..., 0] + each[..., 1] + each[..., 2] + each[..., 3]).reshape(count, 4, count)
-        squares = each[:, 0] + each[:, 1] + each[:, 2] + each[:, 3]
-        sizes = np.sqrt(np.abs(squares))
-        own = np.maximum(sizes.diagonal(), np.finfo(np.float64).tiny)
-        return np.asarray(own * (sizes / np.sqrt(np.outer(own, own))).sum(axis=1))
+        numbers = np.empty(len(law))
+        return numbers if stiffness_numbers(law, self.own, self.mixed, numbers) else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from orchestrator.master.compiled import compiled, inlined
+from fmus.kernels.loops import compiled, inlined
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

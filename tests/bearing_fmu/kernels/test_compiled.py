@@ -62,7 +62,7 @@ def test_nowhere_to_keep_compiled_code(folder):
     "machine",
     "a full disk when numba keeps its compiled kernels",
     "they are used all the same, and compiled again in the next process; no error",
-    guard="bearing_fmu.kernels.kept:keep_safely",
+    guard="fmus.kernels.kept:keep_safely",
 )
 def test_no_room_to_keep_compiled_code(folder):
     full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, -1))\n"
@@ -79,7 +79,7 @@ def test_no_room_to_keep_compiled_code(folder):
     "machine",
     "a compiled kernel on disk that is damaged, as after a power loss",
     "it is compiled and kept anew; no error, no wrong number",
-    guard="bearing_fmu.kernels.kept:_read",
+    guard="fmus.kernels.kept:_read",
 )
 def test_a_damaged_kernel_is_compiled_anew(folder, kept, ending, damage):
     shutil.copytree(kept, folder / "__pycache__")

@@ -1,4 +1,4 @@
-"""Small loops over the bearings, compiled: a call of numpy on eleven numbers costs as much as the whole loop.
+"""Small loops, compiled: a call of numpy on eleven numbers costs as much as the whole loop.
 
 Each is kept next to its source and compiled anew when that file or this one changes, so that it draws on
 nothing but functions and numbers of its own file, on `dot`, and on what it is given.  What is kept carries
@@ -16,7 +16,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.kept import keep_safely
+from fmus.kernels.kept import keep_safely
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
@@ -24,10 +24,19 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
 
 def compiled(function: _Function) -> _Function:
     """Compile a function at its first call; as it stands it is ``py_func``."""
+    return _compile(function, _OPTIONS)
+
+
+def fused(function: _Function) -> _Function:
+    """The same, a product and a sum in one where the processor can; not to the bit what numpy makes of it."""
+    return _compile(function, _OPTIONS | {"fastmath": {"contract"}})
+
+
+def _compile(function: _Function, options: dict[str, Any]) -> _Function:
     try:
-        dispatcher: Any = njit(cache=True, **_OPTIONS)(function)
+        dispatcher: Any = njit(cache=True, **options)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
-        return njit(**_OPTIONS)(function)  # type: ignore[no-any-return]
+        return njit(**options)(function)  # type: ignore[no-any-return]
     files = Path(__file__), Path(function.__code__.co_filename)
     stamp = "".join(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)
     keep_safely(dispatcher, stamp)

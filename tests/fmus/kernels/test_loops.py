@@ -1,14 +1,14 @@
-"""Compiled loops of the master: what is kept of them may be damaged, or not be written at all."""
+"""Compiled loops: what is kept of them may be damaged, or not be written at all."""
 
 import importlib.util
 import sys
 
 import pytest
 
-from bearing_fmu.kernels.kept import KeptFile
+from fmus.kernels.kept import KeptFile
 
 SOURCE = """
-from orchestrator.master.compiled import compiled
+from fmus.kernels.loops import compiled
 
 @compiled
 def twice(value):

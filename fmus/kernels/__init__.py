@@ -1,0 +1,1 @@
+"""Compiled code: where it is kept, and small loops."""

@@ -1,0 +1,158 @@
+"""The arithmetic of a step under affine laws, compiled; what it is for: `rotor_fmu.vibration.affine_step`.
+
+Laws are rows [K C] of each of n bearings, (n, 4, 8); wrenches are (4 n,); journals' q and v are (n, 8).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmus.kernels.loops import fused, inlined
+
+Array = NDArray[np.float64]
+
+_TINY = float(np.finfo(np.float64).tiny)
+
+
+@inlined
+def _react(law: Array, offset: Array, journals: Array, wrench: Array) -> None:
+    for b in range(len(law)):
+        for i in range(4):
+            taken = 0.0
+            for j in range(8):
+                taken += law[b, i, j] * journals[b, j]
+            wrench[4 * b + i] = offset[4 * b + i] - taken
+
+
+@inlined
+def _few_and_soft(law: Array, own: Array) -> bool:
+    """Whether a crude bound, g_ij^2 <= tr(K_i S_ii) tr(K_j S_jj), shows that no number is above 1."""
+    most = total = 0.0
+    for b in range(len(law)):
+        trace = 0.0
+        for i in range(4):
+            for j in range(4):
+                trace += law[b, i, j] * own[b, i, j]
+        alone = math.sqrt(abs(trace))
+        most, total = max(most, alone), total + alone
+    return not most * total > 1.0
+
+
+@fused
+def stiffness_numbers(law: Array, own: Array, mixed: Array, numbers: Array) -> bool:
+    """Overwrite numbers, (n,), with those of `coordinates.Compliance.stiffness_numbers`.
+
+    False, and they are left, if a cruder bound shows that none is above 1.
+    """
+    count = len(law)
+    if _few_and_soft(law, own):
+        return False
+    product = np.zeros((4 * count, 4 * count))
+    for row in range(4 * count):
+        for j in range(4):
+            stiffness = law[row // 4, row % 4, j]
+            for c in range(4 * count):
+                product[row, c] += stiffness * mixed[4 * (row // 4) + j, c]
+    sizes = np.zeros((count, count))
+    for one in range(count):
+        for other in range(count):
+            square = 0.0
+            for i in range(4 * one, 4 * one + 4):
+                for j in range(4 * other, 4 * other + 4):
+                    square += product[i, j] * product[j, i]
+            sizes[one, other] = math.sqrt(abs(square))
+    for one in range(count):
+        size, total = max(sizes[one, one], _TINY), 0.0
+        for other in range(count):
+            total += sizes[one, other] / math.sqrt(size * max(sizes[other, other], _TINY))
+        numbers[one] = size * total
+    return True
+
+
+@fused
+def react(law: Array, offset: Array, journals: Array, wrench: Array) -> None:
+    """Overwrite wrenches with an offset less what laws make of the journals' motion."""
+    _react(law, offset, journals, wrench)
+
+
+@fused
+def end_wrenches(
+    law: Array,
+    offset: Array,
+    journals: Array,
+    of_start: Array,
+    of_end: Array,
+    nearer: Array,
+    matrix: Array,
+    wrench: Array,
+) -> bool:
+    """Overwrite wrenches with those that a law has with what they do themselves.
+
+    Parameters
+    ----------
+    law, offset
+        As above.
+    journals : ndarray
+        At the end of the step without those wrenches.
+    of_start, of_end : ndarray, (n, 8, 4 n)
+        What wrenches at both ends move the journals by.
+    nearer : ndarray, (4 n,)
+        Share of each that counts at the start instead.
+    matrix : ndarray, (4 n, 4 n)
+        Memory.
+    wrench : ndarray
+        Overwritten.
+
+    Returns
+    -------
+    bool
+        False if there is no solution.
+    """
+    size = len(offset)
+    _react(law, offset, journals, wrench)
+    for b in range(len(law)):
+        matrix[4 * b : 4 * b + 4] = 0.0
+        for j in range(8):
+            start, end = of_start[b, j], of_end[b, j]
+            for i in range(4):
+                factor, row = law[b, i, j], matrix[4 * b + i]
+                for c in range(size):
+                    row[c] += factor * (end[c] + nearer[c] * (start[c] - end[c]))
+        for i in range(4 * b, 4 * b + 4):
+            matrix[i, i] += 1.0
+    return _solved(matrix, wrench)
+
+
+@inlined
+def _solved(matrix: Array, right: Array) -> bool:
+    """Overwrite a right side with the solution, and the matrix; Gauss's elimination with row pivots.
+
+    False where a pivot is 0.
+    """
+    size = len(right)
+    for k in range(size):
+        pivot = k
+        for row in range(k + 1, size):
+            if abs(matrix[row, k]) > abs(matrix[pivot, k]):
+                pivot = row
+        if matrix[pivot, k] == 0.0:
+            return False
+        if pivot != k:
+            for c in range(size):
+                matrix[k, c], matrix[pivot, c] = matrix[pivot, c], matrix[k, c]
+            right[k], right[pivot] = right[pivot], right[k]
+        last = matrix[k, k + 1 :]
+        for row in range(k + 1, size):
+            factor = matrix[row, k] / matrix[k, k]
+            right[row] -= factor * right[k]
+            rest = matrix[row, k + 1 :]
+            for c in range(len(rest)):
+                rest[c] -= factor * last[c]
+    for k in range(size - 1, -1, -1):
+        for c in range(k + 1, size):
+            right[k] -= matrix[k, c] * right[c]
+        right[k] /= matrix[k, k]
+    return True
