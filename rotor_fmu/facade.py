@@ -181,9 +181,9 @@ class RotorSlave(UnitSlave):
             work = self._rotor.work() if self._value("track_work") else 0.0
             self.values[self.layout.block(port.WORK[0], port.WORK[-1])] = work
             return
-        fields, nodes = self._rotor.fields(), self._train.nodes
-        for key in ("x", "y", "amplitude", "stress"):
-            self.values[self.layout.block(f"node[1].{key}", f"node[{nodes}].{key}")] = getattr(fields, key)
+        block = self.layout.block("node[1].x", f"node[{self._train.nodes}].stress")
+        fields = self._rotor.fields()
+        self.values[block] = np.concatenate([fields.x, fields.y, fields.amplitude, fields.stress])
 
     def model_state(self) -> RotorState:
         """Return the state of the shaft."""

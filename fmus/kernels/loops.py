@@ -1,14 +1,14 @@
 """Small loops, compiled: a call of numpy on eleven numbers costs as much as the whole loop.
 
-Each is kept next to its source and compiled anew when that file or this one changes, so that it draws on
-nothing but functions and numbers of its own file, on `dot`, and on what it is given.  What is kept carries
-its digest: a file that is damaged counts as missing.
+Each is kept next to its source and compiled anew when that file changes, this one, or that of another such
+function that it calls, so that it draws on no others, on numbers of its own file, and on what it is given.
+What is kept carries its digest: a file that is damaged counts as missing.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -28,8 +28,8 @@ def compiled(function: _Function) -> _Function:
 
 
 def fused(function: _Function) -> _Function:
-    """The same, a product and a sum in one where the processor can; not to the bit what numpy makes of it."""
-    return _compile(function, _OPTIONS | {"fastmath": {"contract"}})
+    """The same, with sums in any order and fused with products; not to the bit what numpy makes of it."""
+    return _compile(function, _OPTIONS | {"fastmath": {"contract", "reassoc"}})
 
 
 def _compile(function: _Function, options: dict[str, Any]) -> _Function:
@@ -37,10 +37,19 @@ def _compile(function: _Function, options: dict[str, Any]) -> _Function:
         dispatcher: Any = njit(cache=True, **options)(function)
     except RuntimeError:  # no folder to keep compiled code in: compile in every process
         return njit(**options)(function)  # type: ignore[no-any-return]
-    files = Path(__file__), Path(function.__code__.co_filename)
+    files = sorted({Path(__file__), *_sources(function)})
     stamp = "".join(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)
     keep_safely(dispatcher, stamp)
     return dispatcher  # type: ignore[no-any-return]
+
+
+def _sources(function: Callable[..., Any]) -> Iterator[Path]:
+    """Files of a function and of the compiled ones that it names, and so on."""
+    yield Path(function.__code__.co_filename)
+    for name in function.__code__.co_names:
+        called = getattr(function.__globals__.get(name), "py_func", None)
+        if called is not None:
+            yield from _sources(called)
 
 
 def inlined(function: _Function) -> _Function:

@@ -38,3 +38,13 @@ def defects(laws: Array, motion: Array, forces: Array, defect: Array) -> None:
             found = forces[b, i] - laws[b, i]
             found += dot(laws[b, 4 + 4 * i : 8 + 4 * i], motion[b, :4])
             defect[b, i] = found + dot(laws[b, 20 + 4 * i : 24 + 4 * i], motion[b, 4:])
+
+
+@compiled
+def within(values: Array, bound: float) -> bool:
+    """Whether all values, (n, m), are nearer to 0 than a bound; False of what is not a number."""
+    for row in range(len(values)):
+        for k in range(values.shape[1]):
+            if not abs(values[row, k]) < bound:
+                return False
+    return True

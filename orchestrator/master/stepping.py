@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.unit import Status, UnitError
 from orchestrator.master.coupling import Advance, Coupling, NotConverged
+from orchestrator.master.interface import within
 from orchestrator.master.jumps import Jumps
 from orchestrator.master.step_error import error_of_step
 from orchestrator.master.system import System
@@ -259,8 +260,7 @@ class Stepper:
 
     def _problem(self, advance: Advance, sizes: tuple[float, float], step: float) -> StepFailure | None:
         system = self._system
-        bounded = float(np.abs(system.journals).max()) < BEYOND_ALL_BOUNDS  # False of NaN
-        if not (math.isfinite(sum(sizes)) and bounded):
+        if not (math.isfinite(sum(sizes)) and within(system.journals, BEYOND_ALL_BOUNDS)):
             journals = np.where(np.abs(system.journals) < BEYOND_ALL_BOUNDS, system.journals, np.nan)
             motion = np.column_stack([journals, system.forces])
             return NotFinite(

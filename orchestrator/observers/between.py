@@ -23,6 +23,8 @@ from orchestrator.master.system import RESPONSE, law_wrenches
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Numbers = NDArray[np.intp]
+Asked = Callable[[Numbers], Array]
+"""What bearings of these numbers tell, a row each."""
 
 WORDS = (
     "wrenches: the law of the evaluation before and the square of the share of time of what it missed at "
@@ -121,28 +123,24 @@ class Between:
         self._values, self._motion = np.zeros((count, outputs)), np.zeros((count, 8))
         self._passed: list[_Passed] = []
 
-    def kept(self, row: int, waits: Mask, told: Callable[[], Array], motion: Callable[[], Array]) -> int:
-        """Note a record, for which some bearings wait, with what all tell and their motion where they stand.
-
-        Returns `complete`.
-        """
+    def kept(self, row: int, waits: Mask, told: Asked, motion: Asked) -> None:
+        """Note a record, for which some bearings wait, with what those tell and their motion there."""
         if waits.any():
-            fresh = waits & (self.first == row)
-            self._values[fresh], self._motion[fresh] = told()[fresh], motion()[fresh]
-        self.first[~waits] = row + 1
-        return self.complete
+            fresh = (waits & (self.first == row)).nonzero()[0]
+            if len(fresh):
+                self._values[fresh], self._motion[fresh] = told(fresh), motion(fresh)
+            self.first[~waits] = row + 1
+        else:
+            self.first[:] = row + 1
 
-    def evaluated(
-        self, done: Mask, end: float, rows: int, told: Callable[[], Array], motion: Callable[[], Array]
-    ) -> int:
+    def evaluated(self, done: Mask, end: float, rows: int, told: Asked, motion: Asked) -> int:
         """Note that these bearings stand at `end`, where there are so many records.
 
         Returns the number of steps with evaluations that end a wait and are to be looked at, see `fill`.
         """
-        if (waited := done & (self.first < rows)).any():
-            k = waited.nonzero()[0]
+        if len(k := (done & (self.first < rows)).nonzero()[0]):
             last, now = np.full(len(k), rows), np.full(len(k), end)
-            then = self._values[k], told()[k], self._motion[k], motion()[k], self._bores.offsets[k]
+            then = self._values[k], told(k), self._motion[k], motion(k), self._bores.offsets[k]
             self._passed.append(_Passed(k, self.first[k], last, self.stands[k], now, *then))
             self.filled += int((last - self.first[k]).sum())
             self.first[k] = rows

@@ -71,6 +71,10 @@ class Noted:
         _take(responses, _OUTPUTS, SIGN, self.now)
         _note(time, defect, of_length, whose, self.now, self.since, self.peaks, self.times)
 
+    def note_later(self, times: Array, bearings: NDArray[np.intp], found: Array) -> None:
+        """Take extremes (m, 9) that became known later: at instants (m,) of bearings (m,)."""
+        _note_later(times, bearings, found, self.peaks, self.times)
+
 
 @compiled
 def _take(responses: Array, outputs: NDArray[np.intp], sign: Array, now: Array) -> None:
@@ -103,3 +107,12 @@ def _note(
                 since[b, k] = now[b, k]
             if now[b, k] > peaks[b, k]:
                 peaks[b, k], times[b, k] = now[b, k], time
+
+
+@compiled
+def _note_later(at: Array, bearings: NDArray[np.intp], found: Array, peaks: Array, times: Array) -> None:
+    for m in range(len(found)):
+        b = bearings[m]
+        for k in range(found.shape[1]):
+            if found[m, k] > peaks[b, k]:
+                peaks[b, k], times[b, k] = found[m, k], at[m]

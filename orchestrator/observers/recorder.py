@@ -49,7 +49,7 @@ def tells_details(unit: Unit) -> bool:
     return tilts(unit) or unit.get_string(port.BEARING_KEYS["boundary"]) == "jfo"
 
 
-_TOGETHER = 64  # steps at which waits have ended that are looked at together
+_TOGETHER = 512  # steps at which waits have ended that are looked at together
 
 
 class Recorder(Observer):
@@ -81,7 +81,7 @@ class Recorder(Observer):
         self._steps, self._stride = steps, stride
         self._newest = -1.0
         self._between = Between(bores, len(RESPONSE) + len(DETAILS))
-        self._whole = True
+        self._whole, self._none = True, np.zeros(bearings, dtype=bool)
         self.rows = Rows(
             {
                 "times": ((), float),
@@ -107,9 +107,13 @@ class Recorder(Observer):
         self._foundation_block = Block(system.rotor, on_foundation, self._foundation_values.reshape(-1))
         self._noted = Noted(bearings)
         self._frozen: int | None = None
-        self._shaft_values = np.empty(len(SHAFT) + len(FIELDS) * nodes)
+        self._shaft_values, self._field_values = np.empty(len(SHAFT)), np.empty((len(FIELDS), nodes))
+        # Each of neighbours in the rotor, which gives them in one piece.
         names = [f"node[{k}].{field}" for field in FIELDS for k in range(1, nodes + 1)]
-        self._shaft_block = Block(system.rotor, [*SHAFT, *names], self._shaft_values)
+        self._shaft_blocks = (
+            Block(system.rotor, SHAFT, self._shaft_values),
+            Block(system.rotor, names, self._field_values.reshape(-1)),
+        )
 
     def begin(self, stepper: Stepper) -> None:
         """Keep the start."""
@@ -122,7 +126,7 @@ class Recorder(Observer):
         self._whole = done is None or bool(done.all())
         self._noted.note(end, self._system.responses, advance.defect, advance.of_length, done)
         if done is not None:
-            told = self._told, lambda: self._system.motion
+            told = self._told, lambda k: self._system.motion[k]
             if self._between.evaluated(done, end, self.rows.held, *told) > _TOGETHER:
                 self._fill()
 
@@ -138,7 +142,7 @@ class Recorder(Observer):
 
     def _keep(self, time: float) -> None:
         system = self._system
-        for block in (*self._detail_blocks, self._shaft_block):
+        for block in (*self._detail_blocks, *self._shaft_blocks):
             block.get()
         moving = {}
         if system.housings is not None:
@@ -151,20 +155,23 @@ class Recorder(Observer):
             responses=system.responses[:, _KEPT],
             details=self._details_now,
             extremes=self._noted.since * SIGN,
-            shaft=self._shaft_values[: len(SHAFT)],
-            fields=self._shaft_values[len(SHAFT) :].reshape(len(FIELDS), -1),
+            shaft=self._shaft_values,
+            fields=self._field_values,
             **moving,
         )
         self._noted.since[:] = -np.inf
         self._newest = time
-        waits = np.zeros(len(system.bearings), dtype=bool) if self._whole else self._between.stands < time
-        self._between.kept(row, waits, self._told, system.stands_at)
+        waits = self._none if self._whole else self._between.stands < time
+        self._between.kept(row, waits, self._told, lambda k: system.stands_at()[k])
 
-    def _told(self) -> Array:
-        """All that bearings tell where they stand, (bearings, outputs and details)."""
+    def _told(self, bearings: NDArray[np.intp]) -> Array:
+        """All that these bearings tell where they stand, (k, outputs and details)."""
         for block in self._detail_blocks:
             block.get()
-        return np.hstack([self._system.responses, self._details_now])
+        told = np.empty((len(bearings), len(RESPONSE) + len(DETAILS)))
+        told[:, : len(RESPONSE)] = self._system.responses[bearings]
+        told[:, len(RESPONSE) :] = self._details_now[bearings]
+        return told
 
     def _fill(self) -> None:
         """Complete what waited; a copy is complete."""
@@ -185,10 +192,7 @@ class Recorder(Observer):
         extremes[:, DEFECT] = np.maximum(extremes[:, DEFECT], 0.0)
         extremes = np.maximum(extremes, extremes_of(values))
         kept["extremes"][rows, bearing] = extremes * SIGN
-        noted = self._noted
-        for row, b, found_there in zip(rows, bearing, extremes, strict=True):
-            higher = found_there > noted.peaks[b]
-            noted.peaks[b, higher], noted.times[b, higher] = found_there[higher], kept["times"][row]
+        self._noted.note_later(kept["times"][rows], bearing, extremes)
 
     @property
     def size(self) -> int:

@@ -137,6 +137,9 @@ class Coordinates(Protocol):
     def to_modal(self, motion: Array) -> Array:
         """(p, p')."""
 
+    def displacements(self, motion: Array) -> Array:
+        """Modal displacements p alone, (m,), for less than `to_modal` takes."""
+
     def journals(self, motion: Array) -> Array:
         """Displacements and velocities (q, v) of the journals, (8 n_b,), a new array."""
 

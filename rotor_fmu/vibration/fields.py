@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -11,7 +10,9 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.shaft.stress import BendingStress
+from rotor_fmu.vibration.field_loops import fields_at
 from rotor_fmu.vibration.modal_shaft import ModalShaft
+from rotor_fmu.vibration.whirl_plane import ALIKE
 
 Array = NDArray[np.float64]
 
@@ -46,12 +47,11 @@ class Extremes(NamedTuple):
 
 
 class _Instant(NamedTuple):
-    """Dynamic deflections (N,) in both planes, their square, and squares of stress at both sides of nodes."""
+    """Displacements in x and y, amplitude and stress (4, N), and where the last two are largest."""
 
-    x: Array
-    y: Array
-    deflection: Array
-    stress: Array
+    fields: Array
+    moved: int
+    bent: int
 
 
 class FieldMap:
@@ -86,57 +86,44 @@ class FieldMap:
             # A bending plane sees its own modes only, which are neighbours.
             columns = slice(int(used[0]), int(used[-1]) + 1) if len(used) else slice(0, 0)
             self._planes.append((columns, np.ascontiguousarray(full[:, columns])))
-        (columns_x, of_x), (columns_y, of_y) = self._planes
-        follows = columns_x.start == 0 and columns_y == slice(columns_x.stop, 2 * columns_x.stop)
-        # Of a circular shaft both planes are the same matrix, which is then read once for both.
-        self._common = of_x if follows and np.array_equal(of_x, of_y) else None
+        (_, of_x), (columns_y, of_y) = self._planes
+        if _alike(of_x, of_y, nodes):  # of a circular shaft: one matrix, which is then read once for both
+            self._planes[1] = columns_y, of_x
         self._flexibility = (1.0 / bending.modulus).ravel()
         self._static: Equilibrium[np.float64] | None = None
-        self._static_moments = np.zeros((2, 2 * nodes))
+        self._line, self._static_moments = np.zeros((2, nodes)), np.zeros((2, 2 * nodes))
         self._last: tuple[Array, Equilibrium[np.float64], _Instant] | None = None
 
-    def fields(self, state: Array, static: Equilibrium[np.float64]) -> NodeFields:
-        """All fields of a modal state (p, p'), (2 m,), about an equilibrium; neither changes in place."""
-        now = self._instant(state, static)
-        return NodeFields(
-            x=static.shape[0::4] + now.x,
-            y=static.shape[1::4] + now.y,
-            amplitude=np.sqrt(now.deflection),
-            stress=np.sqrt(now.stress.reshape(2, -1).max(axis=0)),
-        )
+    def fields(self, moved: Array, static: Equilibrium[np.float64]) -> NodeFields:
+        """All fields of modal displacements, (m,), about an equilibrium; neither changes in place."""
+        return NodeFields(*self._instant(moved, static).fields)
 
-    def extremes(self, state: Array, static: Equilibrium[np.float64]) -> Extremes:
-        """Largest amplitude and stress alone, of what `fields` takes."""
-        now = self._instant(state, static)
-        k, s = int(now.deflection.argmax()), int(now.stress.argmax())
-        return Extremes(
-            math.sqrt(now.deflection[k]),
-            float(self._z[k]),
-            math.sqrt(now.stress[s]),
-            float(self._z[s % self._nodes]),
-        )
+    def extremes(self, moved: Array, static: Equilibrium[np.float64]) -> Extremes:
+        """Largest amplitude and stress, and where."""
+        fields, k, s = self._instant(moved, static)
+        return Extremes(float(fields[2, k]), float(self._z[k]), float(fields[3, s]), float(self._z[s]))
 
-    def _instant(self, state: Array, static: Equilibrium[np.float64]) -> _Instant:
-        if self._last is not None and self._last[0] is state and self._last[1] is static:
+    def _instant(self, moved: Array, static: Equilibrium[np.float64]) -> _Instant:
+        if self._last is not None and self._last[0] is moved and self._last[1] is static:
             return self._last[2]
-        x, y, moment_x, moment_y = self._apply(state, static)
-        # Squares, for hypot is slow; moments are far from overflow.
-        stress = moment_x * moment_x + moment_y * moment_y
-        stress *= self._flexibility
-        stress *= self._flexibility
-        self._last = state, static, _Instant(x, y, x * x + y * y, stress)
-        return self._last[2]
-
-    def _apply(self, state: Array, static: Equilibrium[np.float64]) -> tuple[Array, Array, Array, Array]:
-        """Dynamic deflections (N,) and total bending moments (2 N,) in both planes."""
         if static is not self._static:
             moments = self._bending.moments(static.shape, self._gravity)
-            self._static, self._static_moments = static, moments.reshape(2, -1)
-        if self._common is not None:
-            in_x, in_y = state[: 2 * self._common.shape[1]].reshape(2, -1) @ self._common.T
-        else:
-            in_x, in_y = (plane @ state[columns] for columns, plane in self._planes)
-        n = self._nodes
-        in_x[n:] += self._static_moments[0]
-        in_y[n:] += self._static_moments[1]
-        return in_x[:n], in_y[:n], in_x[n:], in_y[n:]
+            self._static, self._static_moments = static, np.ascontiguousarray(moments.reshape(2, -1))
+            self._line = np.stack([static.shape[0::4], static.shape[1::4]])
+        fields = np.empty((4, self._nodes))
+        (columns_x, of_x), (columns_y, of_y) = self._planes
+        about = self._line, self._static_moments, self._flexibility
+        largest = fields_at(of_x, of_y, moved[columns_x], moved[columns_y], *about, fields)
+        self._last = moved, static, _Instant(fields, *largest)
+        return self._last[2]
+
+
+def _alike(one: Array, other: Array, nodes: int) -> bool:
+    """Whether rows of deflection, as many as nodes, and of moments are the same but for rounding."""
+    if one.shape != other.shape:
+        return False
+    parts = ((part[:nodes], part[nodes:]) for part in (one, other))
+    return all(
+        np.abs(a - b).max(initial=0.0) <= ALIKE * np.abs(a).max(initial=0.0)
+        for a, b in zip(*parts, strict=True)
+    )

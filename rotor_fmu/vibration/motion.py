@@ -37,6 +37,7 @@ class RotorMotion:
     _state: RotorState
     _journals: Array
     _modal: Array | None
+    _displaced: Array | None
     _seen: Array | None
 
     def __init__(
@@ -140,17 +141,23 @@ class RotorMotion:
 
     def fields(self) -> NodeFields:
         """Displacement, vibration amplitude and normal stress at all nodes now."""
-        return self._fields.fields(self.modal_state(), self._state.static)
+        return self._fields.fields(self._displacements(), self._state.static)
 
     def extremes(self) -> Extremes:
         """Largest vibration amplitude and normal stress now, and where; cheap enough for every step."""
-        return self._fields.extremes(self.modal_state(), self._state.static)
+        return self._fields.extremes(self._displacements(), self._state.static)
 
     def modal_state(self) -> Array:
         """Modal displacements and velocities (p, p') of the vibration now, (2 m,); not to be changed."""
         if self._modal is None:
             self._modal = self._maps.coordinates(self._state.speed).to_modal(self._state.motion)
         return self._modal
+
+    def _displacements(self) -> Array:
+        """Modal displacements of the vibration now, (m,); not to be changed."""
+        if self._displaced is None:
+            self._displaced = self._maps.coordinates(self._state.speed).displacements(self._state.motion)
+        return self._displaced
 
     def seen(self) -> Array:
         """The vibration now along the pulls of the unbalances, see `MapCache.reading`."""
@@ -187,7 +194,7 @@ class RotorMotion:
 
     def _go_on(self, coordinates: Coordinates, state: RotorState, seen: Array | None) -> None:
         """Take on a state in coordinates of this rotor, which say the journals' motion."""
-        self._state, self._modal, self._seen = state, None, seen
+        self._state, self._modal, self._displaced, self._seen = state, None, None, seen
         self._journals = journal_motion(coordinates, state.motion, state.static, state.trail)
 
     def _angle_at(self, time: float) -> float:

@@ -81,6 +81,10 @@ class ModalCoordinates:
         """The same."""
         return motion
 
+    def displacements(self, motion: Array) -> Array:
+        """The first half."""
+        return motion[: len(motion) // 2]
+
     def journals(self, motion: Array) -> Array:
         """Displacements and velocities (q, v) of the journals, (8 n_b,)."""
         return np.asarray(self._output @ motion)

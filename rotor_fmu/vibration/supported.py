@@ -110,6 +110,11 @@ class SupportedCoordinates:
         own = self._shaft.to_modal(motion[: self._states]).reshape(2, -1)
         return np.hstack([own, motion[self._states :].reshape(2, -1)]).ravel()
 
+    def displacements(self, motion: Array) -> Array:
+        """Modal displacements p."""
+        own, foundation = self._shaft.displacements(motion[: self._states]), motion[self._states :]
+        return np.concatenate([own, foundation[: len(foundation) // 2]])
+
     def journals(self, motion: Array) -> Array:
         """Displacements and velocities of the journals in their housings, (8 n_b,)."""
         return self._shaft.journals(motion[: self._states]) - self.housings(motion).ravel()

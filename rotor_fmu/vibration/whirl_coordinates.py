@@ -21,6 +21,7 @@ from rotor_fmu.vibration.detuning import Detuning
 from rotor_fmu.vibration.first_order_hold import harmonic_hold, linear_hold
 from rotor_fmu.vibration.modal_shaft import ModalShaft
 from rotor_fmu.vibration.state_space import rotation_rate
+from rotor_fmu.vibration.whirl_loops import add_product, coast, parts
 from rotor_fmu.vibration.whirl_plane import WhirlPlane, whirl_plane
 
 Array = NDArray[np.float64]
@@ -36,40 +37,37 @@ class WhirlMaps:
 
     Attributes
     ----------
-    block : ndarray of complex, (s, s)
-        Of the coupled motions.
-    growth : ndarray of complex, (2 k - s,)
-        Of each decoupled one.
-    start : ndarray of complex, (2 k, 2 n_b + 2 h)
+    block : ndarray, (2, s, s)
+        Of the coupled motions; this and the next two as `whirl_loops.parts`.
+    start : ndarray, (2, 2 n_b + 2 h, 2 k)
         Motion at the end from the wrenches at the start and the rotation.
-    end : ndarray of complex, (2 k, 2 n_b)
+    end : ndarray, (2, 2 n_b, 2 k)
         From the wrenches at the end.
+    growth : ndarray, (4 k - 2 s,)
+        Of each decoupled one, in pairs.
     compliance : Compliance
         Journals at the end from the wrenches.
     """
 
-    block: Complex
-    growth: Complex
-    start: Complex
-    end: Complex
+    block: Array
+    start: Array
+    end: Array
+    growth: Array
     compliance: Compliance
 
     def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
         """Motion at the end if the wrenches end with the step."""
-        before, slow = motion.view(np.complex128), len(self.block)
-        after = self.start @ np.concatenate([wrench.view(np.complex128), rotation])
-        after[:slow] += self.block @ before[:slow]
-        after[slow:] += self.growth * before[slow:]
-        return after.view(np.float64)
+        after = np.empty_like(motion)
+        coast(self.block, self.growth, self.start, wrench, rotation, motion, after)
+        return after
 
     def add_start(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the start do."""
-        pairs = wrench.view(np.complex128)
-        motion += (self.start[:, : len(pairs)] @ pairs).view(np.float64)
+        add_product(self.start, wrench, motion)
 
     def add_end(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the end do."""
-        motion += (self.end @ wrench.view(np.complex128)).view(np.float64)
+        add_product(self.end, wrench, motion)
 
 
 class NotDecoupledError(ValueError):
@@ -120,6 +118,7 @@ class WhirlCoordinates:
         # Of each bearing x + i y, tilt_x + i tilt_y, then their rates: the port's order.
         self._journals = np.ascontiguousarray(rows.reshape(2, -1, 2, 2 * k).transpose(1, 0, 2, 3))
         self._journals = self._journals.reshape(-1, 2 * k)
+        self._journal_parts, self._displacement_parts = parts(self._journals), parts(self._to_state[:k])
 
     def from_modal(self, state: Array) -> Array:
         """Of (p, p')."""
@@ -131,9 +130,17 @@ class WhirlCoordinates:
         whirl = (self._to_state @ motion.view(np.complex128)).reshape(2, -1)
         return np.stack([whirl.real, whirl.imag], axis=1).ravel()
 
+    def displacements(self, motion: Array) -> Array:
+        """Modal displacements p."""
+        found = np.zeros(2 * len(self._plane.omega))
+        add_product(self._displacement_parts, motion, found)
+        return np.concatenate([found[0::2], found[1::2]])
+
     def journals(self, motion: Array) -> Array:
         """Displacements and velocities (q, v) of the journals, (8 n_b,)."""
-        return (self._journals @ motion.view(np.complex128)).view(np.float64)
+        found = np.zeros(2 * len(self._journals))
+        add_product(self._journal_parts, motion, found)
+        return found
 
     def maps(self, speed: float, step: float, harmonic: Array) -> WhirlMaps:
         """Maps over a step; ValueError at another speed than that of the coordinates."""
@@ -153,7 +160,8 @@ class WhirlCoordinates:
         end = np.vstack([end, rising[:, None] * load[slow:]])
         of_start, of_end = (_as_real(self._journals @ part[:, : end.shape[1]]) for part in (start, end))
         compliance = Compliance(of_start, of_end, self._following)
-        return WhirlMaps(block, np.exp(self._rates * step), start, end, compliance)
+        growth = np.exp(self._rates * step).view(np.float64)
+        return WhirlMaps(parts(block), parts(start), parts(end), growth, compliance)
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""

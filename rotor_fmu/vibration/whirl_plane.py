@@ -18,7 +18,7 @@ from rotor_fmu.vibration.modal_shaft import ModalShaft
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_ALIKE = 1e-12
+ALIKE = 1e-12
 """Relative difference up to which what the two planes hold counts as the same: rounding."""
 
 
@@ -84,4 +84,4 @@ def whirl_plane(shaft: ModalShaft) -> WhirlPlane | None:
 
 
 def _same(one: Array, other: Array) -> bool:
-    return bool(np.abs(one - other).max(initial=0.0) <= _ALIKE * np.abs(one).max(initial=0.0))
+    return bool(np.abs(one - other).max(initial=0.0) <= ALIKE * np.abs(one).max(initial=0.0))

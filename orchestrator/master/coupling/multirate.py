@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from orchestrator.master.coupling import rates as known
 from orchestrator.master.coupling.base import Advance, Errors
+from orchestrator.master.coupling.rate_step import find_due, measure, settle
 from orchestrator.master.coupling.rates import BEFORE, KNOWN, OWN, SIZE, SPAN, STANDS, WIDTH
 from orchestrator.master.system import System, Wiring
 
@@ -44,9 +45,6 @@ train)."""
 
 LATE = 2.0
 """Revolutions in which the size that defects are measured by falls to 1/e of what it was."""
-
-LIGHT = 0.3
-"""Share of the mean static load that is the least size."""
 
 
 class _Room:
@@ -122,25 +120,31 @@ class Multirate:
         system.rotor_group.step(time, step)
         system.rotor_group.fetch()
         motion, own = system.motion, OWN * self.tolerance
-        given = rates, tangents, where, motion, system.levers, room.again
-        known.due_at(end, own, common, *given, moved, due)
-        room.tangents[:] = tangents
+        standing = rates, tangents, where, motion, system.levers, room.again
+        find_due(end, own, common, *standing, moved, due, room.tangents)
         self._evaluate(system, due.nonzero()[0].tolist(), rates[:, STANDS].tolist(), time, step)
-        room.defect[:] = system.defect()
-        room.defect[~due] = 0.0
-        self._measure(system, room.size, step)
-        largest, answered = known.relative(
+        largest, answered = settle(
             time,
+            end,
             self.tolerance,
-            room.defect,
+            own,
+            math.exp(-abs(system.speed) * step / (2.0 * math.pi * LATE)),
+            system.laws,
+            motion,
+            wrenches,
+            system.loads,
             system.levers,
-            room.size,
+            room.tangents,
             rates,
             room.again,
+            moved,
+            due,
+            room.defect,
+            room.size,
             room.sizes,
             room.rough,
+            room.next,
         )
-        known.intervals_after(end, own, rates, room.tangents, due, moved, room.sizes, room.size, room.next)
         self._taken = True
         return Advance(1, room.defect, None, due.copy(), Errors(largest, answered))
 
@@ -153,15 +157,6 @@ class Multirate:
         system.bearing_group.step_some(due, stands, spans)
         system.bearing_group.fetch(due)
 
-    def _measure(self, system: System, size: Array, step: float) -> None:
-        """Overwrite sizes with the largest forces of late a step later, in N."""
-        assert self._room is not None
-        faded = math.exp(-abs(system.speed) * step / (2.0 * math.pi * LATE))
-        forces = system.forces
-        np.hypot(forces[:, 0], forces[:, 1], out=size)
-        np.maximum(size, faded * self._room.rates[:, SIZE], out=size)
-        np.maximum(size, LIGHT * system.loads, out=size)
-
     def _at(self, system: System, time: float, step: float) -> _Room:
         """Return what is known at the start of a step; one before that was not refused counts."""
         room = self._room
@@ -171,7 +166,7 @@ class Multirate:
                 return room
         room = self._room = _Room(len(system.bearings))  # of another system, or the first step
         room.rates[:, STANDS], room.rates[:, known.INTERVAL] = time, step
-        self._measure(system, room.size, 0.0)
+        measure(system.forces, system.loads, 0.0, room.rates, room.size)
         room.rates[:, SIZE] = room.size
         self._known, self._taken = True, False
         system.rotor_group.feed()

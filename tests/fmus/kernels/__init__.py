@@ -1,0 +1,1 @@
+"""Compiled code of the units and of the master."""

@@ -49,3 +49,21 @@ def test_a_full_disk_does_not_matter(folder, monkeypatch):
 
     monkeypatch.setattr(KeptFile, "save", full)
     assert twice_of(folder)(1.5) == 3.0
+
+
+def test_code_is_renewed_with_the_file_of_a_compiled_function_that_it_calls(folder, monkeypatch):
+    calls = "from fmus.kernels.loops import compiled\nfrom kept_example import twice\n\n\n"
+    calls += "@compiled\ndef more(value):\n    return twice(value) + 1.0\n"
+    (folder / "kept_caller.py").write_text(calls)
+    monkeypatch.syspath_prepend(folder)
+
+    def more(value):
+        for name in ("kept_example", "kept_caller"):
+            sys.modules.pop(name, None)
+        importlib.invalidate_caches()
+        return importlib.import_module("kept_caller").more(value)
+
+    assert more(1.5) == 4.0
+    source = folder / "kept_example.py"
+    source.write_text(source.read_text().replace("2.0 * value", "40.0 * value"))
+    assert more(1.5) == 61.0

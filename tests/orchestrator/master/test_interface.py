@@ -10,7 +10,11 @@ from orchestrator.observers import extremes
 from orchestrator.observers.extremes import EXTREMES, Noted, extremes_of
 
 N = 3
-LOOPS = {interface: ("largest_relative", "defects"), step_error: ("_missed",), extremes: ("_take", "_note")}
+LOOPS = {
+    interface: ("largest_relative", "defects", "within"),
+    step_error: ("_missed",),
+    extremes: ("_take", "_note"),
+}
 
 
 @pytest.fixture(autouse=True, params=["compiled", "as it stands"])
@@ -45,6 +49,14 @@ def test_the_largest_component_counts_against_load_or_force():
         assert interface.largest_relative(defect, forces, loads, levers) == pytest.approx(size)
     defect[0, 2] = np.nan
     assert np.isnan(interface.largest_relative(defect, forces, loads, levers))
+
+
+@pytest.mark.parametrize("bad", [2.0, -2.0, np.nan, np.inf])
+def test_values_within_a_bound(bad):
+    values = np.ones((N, 8))
+    assert interface.within(values, 2.0)
+    values[1, 3] = bad
+    assert not interface.within(values, 2.0)
 
 
 def test_the_error_of_a_length_is_the_middle_of_a_cubic_in_the_tangent(rng):

@@ -41,11 +41,14 @@ def passed_over(span, dent=0.0):
     """Records at an eighth, half, and seven eighths of an interval, filled in, and what they should be."""
     bores = Bores([CLEARANCE] * 2, [WIDTH] * 2, OFFSETS)
     between, both = Between(bores, len(RESPONSE)), np.ones(2, dtype=bool)
-    assert between.kept(0, ~both, lambda: told(0.0), lambda: motion(0.0)) == 1
+    between.kept(0, ~both, lambda k: told(0.0)[k], lambda k: motion(0.0)[k])
+    assert between.complete == 1
     times = span * np.array([0.125, 0.5, 0.875])
     for row in range(1, 4):
-        assert between.kept(row, both, lambda: told(0.0, dent), lambda: motion(0.0)) == 1
-    assert between.evaluated(both, span, 4, lambda: told(span, dent), lambda: motion(span)) == 1
+        between.kept(row, both, lambda k: told(0.0, dent)[k], lambda k: motion(0.0)[k])
+        assert between.complete == 1
+    given = lambda k: told(span, dent)[k], lambda k: motion(span)[k]
+    assert between.evaluated(both, span, 4, *given) == 1
     bores.move(0, 1, 1.0)  # later
 
     def places(rows, bearing):
@@ -87,8 +90,9 @@ def test_gaps_that_are_no_round_bore_s_run_straight():
 def test_what_is_held_goes_on_from_its_arrays():
     bores = Bores([CLEARANCE] * 2, [WIDTH] * 2, OFFSETS)
     between, first = Between(bores, len(RESPONSE)), np.array([True, False])
-    between.kept(0, np.zeros(2, dtype=bool), lambda: told(0.0), lambda: motion(0.0))
-    assert between.kept(1, first, lambda: told(1.0), lambda: motion(1.0)) == 1
+    between.kept(0, np.zeros(2, dtype=bool), lambda k: told(0.0)[k], lambda k: motion(0.0)[k])
+    between.kept(1, first, lambda k: told(1.0)[k], lambda k: motion(1.0)[k])
+    assert between.complete == 1
     other = Between(bores, len(RESPONSE))
     assert other.restore({f"between.{name}": x.copy() for name, x in between.arrays().items()}) == 1
     for name, values in between.arrays().items():

@@ -1,0 +1,101 @@
+"""Compiled loops of the rotor, and as they stand, against the same by numpy."""
+
+import numpy as np
+import pytest
+
+from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
+
+N = 3
+LOADS = 4 * N
+
+
+@pytest.fixture(params=["compiled", "as it stands"])
+def loop(request):
+    """A loop of a module by name, in one of the two ways."""
+
+    def find(module, name):
+        function = getattr(module, name)
+        return function if request.param == "compiled" else function.py_func
+
+    return find
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(5)
+
+
+def complex_numbers(rng, *shape):
+    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3])
+def test_wrenches_at_the_end_are_those_of_the_law_under_themselves(rng, loop, share):
+    law, offset, journals = rng.normal(size=(N, 4, 8)), rng.normal(size=LOADS), rng.normal(size=(N, 8))
+    of_start, of_end = 0.1 * rng.normal(size=(2, N, 8, LOADS))
+    nearer, wrench = share * rng.random(LOADS), np.empty(LOADS)
+    memory = np.full((LOADS, LOADS), np.nan)
+    assert loop(law_loops, "end_wrenches")(law, offset, journals, of_start, of_end, nearer, memory, wrench)
+    moved = journals + (of_end + nearer * (of_start - of_end)) @ wrench
+    again = np.empty(LOADS)
+    loop(law_loops, "react")(law, offset, moved, again)
+    np.testing.assert_allclose(again, offset - np.einsum("bij,bj->bi", law, moved).ravel(), rtol=1e-12)
+    np.testing.assert_allclose(wrench, again, rtol=0, atol=1e-11 * np.abs(wrench).max())
+
+
+def test_a_law_without_a_solution(rng, loop):
+    """1 + L S = 0 in the last component, where pivots are first exchanged."""
+    law, of_end = np.zeros((1, 4, 8)), np.zeros((1, 8, 4))
+    law[0, :, :4] = np.array([[-1.0, 1.0, 0, 0], [1.0, 3.0, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1.0]])
+    of_end[0, :4] = np.eye(4)
+    given = law, np.ones(4), np.zeros((1, 8)), of_end, of_end, np.zeros(4), np.empty((4, 4)), np.empty(4)
+    assert not loop(law_loops, "end_wrenches")(*given)
+
+
+def test_stiffness_numbers(rng, loop):
+    """Two springs on one mass: k S of each alone, and twice that since both stiffen the other."""
+    numbers = np.zeros(2)
+    law, own, mixed = np.zeros((2, 4, 8)), np.zeros((2, 4, 4)), np.zeros((8, 8))
+    law[:, 0, 0] = 6.0, 24.0
+    own[:, 0, 0] = mixed[0, 0] = mixed[4, 4] = mixed[0, 4] = mixed[4, 0] = 0.5
+    find = loop(law_loops, "stiffness_numbers")
+    assert find(law, own, mixed, numbers)
+    np.testing.assert_allclose(numbers, [6.0, 24.0])
+    assert not find(1e-2 * law, own, mixed, numbers)
+
+
+@pytest.mark.parametrize("slow", [0, 2, 5])
+def test_a_whirl_coasts_and_is_pushed(rng, loop, slow):
+    size, pairs = 5, 4
+    block, growth = complex_numbers(rng, slow, slow), complex_numbers(rng, size - slow)
+    matrix, before = complex_numbers(rng, size, pairs + 2), complex_numbers(rng, size)
+    wrench, rotation, after = complex_numbers(rng, pairs), rng.normal(size=2), np.empty(2 * size)
+    maps = (
+        whirl_loops.parts(block),
+        growth.view(float),
+        whirl_loops.parts(matrix),
+        wrench.view(float),
+    )
+    assert all(part.flags.c_contiguous for part in maps)
+    loop(whirl_loops, "coast")(*maps, rotation, before.view(float), after)
+    expected = matrix @ np.concatenate([wrench, rotation])
+    expected[:slow] += block @ before[:slow]
+    expected[slow:] += growth * before[slow:]
+    np.testing.assert_allclose(after.view(complex), expected, rtol=1e-12)
+    loop(whirl_loops, "add_product")(maps[2], wrench.view(float), after)
+    np.testing.assert_allclose(after.view(complex), expected + matrix[:, :pairs] @ wrench, rtol=1e-12)
+
+
+def test_fields_and_where_they_are_largest(rng, loop):
+    nodes = 7
+    (of_x, of_y), (in_x, in_y) = rng.normal(size=(2, 3 * nodes, 4)), rng.normal(size=(2, 4))
+    static, moments = rng.normal(size=(2, nodes)), rng.normal(size=(2, 2 * nodes))
+    flexibility, fields = rng.random(2 * nodes), np.full((4, nodes), np.nan)
+    found = loop(field_loops, "fields_at")(of_x, of_y, in_x, in_y, static, moments, flexibility, fields)
+    moved = np.array([of_x @ in_x, of_y @ in_y])
+    stress = np.hypot(*(moved[:, nodes:] + moments)) * flexibility
+    expected = [
+        *(static + moved[:, :nodes]), np.hypot(*moved[:, :nodes]), stress.reshape(2, -1).max(axis=0)
+    ]  # fmt: skip
+    np.testing.assert_allclose(fields, expected, rtol=1e-12)
+    assert found == (np.argmax(expected[2]), np.argmax(expected[3]))
