@@ -100,14 +100,14 @@ def _seat(case: LinearCase, name: str | None) -> BearingSeat:
 
 def _table(curves: xr.Dataset, title: str) -> Table:
     """Every depth over the load."""
-    table = table_of(f"{title}; stable up to this speed times the root of C/g")
+    table = table_of(f"{title}; stable up to this speed times the root of C/g", narrow=True)
     for head in ("So", "depth", "eps", "angle\ndeg", "gap\nµm", "p\nMPa", "friction\nkW",
                  "flow\nl/s", "rise\nK", "stable\nup to"):  # fmt: skip
-        table.add_column(head, justify="left" if head == "depth" else "right")
+        table.add_column(head, justify="left" if head == "depth" else "right", no_wrap=True)
     step = -(-curves.sizes["sommerfeld"] // ROWS)
     for so in curves["sommerfeld"].values[::step]:
         for k, depth in enumerate(curves["depth"].values):
-            table.add_row(f"{so:.3g}" if k == 0 else "", *_row(curves.sel(depth=depth, sommerfeld=so)))
+            table.add_row(f"{so:.3g}" if k == 0 else "", *_row(curves.sel(depth=depth, sommerfeld=so), 3))
     return table
 
 
@@ -132,10 +132,16 @@ def _at_load(found: BearingStudy, speed: float) -> Table:
     return table
 
 
-def _row(point: xr.Dataset) -> list[str]:
-    """Figures of one depth under one load."""
+def _figure(value: float, digits: int) -> str:
+    """A number with so many significant digits, from a thousand on as a whole one."""
+    return f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.{digits}g}"
+
+
+def _row(point: xr.Dataset, digits: int = 4) -> list[str]:
+    """Figures of one depth under one load, to so many significant digits."""
     scales = {"eccentricity": 1.0, "attitude": 1.0, "h_min": 1e6, "p_max": 1e-6, "friction_power": 1e-3,
               "side_flow": 1e3, "temperature_rise": 1.0, "threshold": 1.0}  # fmt: skip
     numbers = [scale * float(point[key]) for key, scale in scales.items()]
-    return [str(point["depth"].values), *(f"{x:.4g}" if np.isfinite(x) else "-" for x in numbers[:-1]),
-            "any" if np.isinf(numbers[-1]) else f"{numbers[-1]:.3g}"]  # fmt: skip
+    shown = [_figure(x, digits) if np.isfinite(x) else "-" for x in numbers[:-1]]
+    stable = "any" if np.isinf(numbers[-1]) else f"{numbers[-1]:.3g}"
+    return [str(point["depth"].values), *shown, stable]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,7 @@ from orchestrator.linear.response import Response, followed, resonant_speeds
 from orchestrator.linear.tables import COLUMNS_EXPLAINED, shaft_column, table_of, warning
 from orchestrator.results.figures.bode import bode_figure
 from orchestrator.results.figures.harmonic import harmonic_figure
+from orchestrator.results.quantities import FORCE
 from rotor_fmu.linear.analysis import half_axes, least_damped
 
 if TYPE_CHECKING:
@@ -149,6 +151,11 @@ def probe_data(case: LinearCase, response: Response, grid: Array, probes: Sequen
     )
 
 
+def _micrometres(value: float) -> str:
+    """An amplitude [m] in µm, with two digits at least."""
+    return f"{1e6 * value:.1f}" if value >= 1e-5 else f"{1e6 * value:.2g}"
+
+
 def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forces: xr.Dataset) -> Table:
     """Response at rated speed and peaks of the unreduced shaft; errors of the reductions' forces."""
     rated = case.train.speed / HERTZ
@@ -160,7 +167,9 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
         f"{top:g} Hz, and errors of reduced shafts at {here:g} Hz",
         narrow=True,
     )
-    for name in ("", f"µm at\n{here:g} Hz", "peak\nµm", "at\nHz", f"kN at\n{here:g} Hz"):
+    pull = FORCE.fitting(float(forces["force"].sel(shaft=FULL)[at].max()))
+    pull = pull if pull.unit != FORCE.unit else replace(FORCE, unit="kN", factor=1e-3)
+    for name in ("", f"µm at\n{here:g} Hz", "peak\nµm", "at\nHz", f"{pull.unit} at\n{here:g} Hz"):
         table.add_column(name, justify="right" if name else "left", no_wrap=True)
     for name in reduced:
         table.add_column(shaft_column(name), justify="right")
@@ -172,10 +181,10 @@ def harmonic_table(case: LinearCase, shaft: xr.Dataset, places: xr.Dataset, forc
         found = [float(compared.sel(shaft=other)[at]) for other in reduced]
         table.add_row(
             name,
-            f"{full[at] * 1e6:.1f}",
-            f"{full.max() * 1e6:.1f}",
+            _micrometres(full[at]),
+            _micrometres(full.max()),
             "end" if full.argmax() == len(full) - 1 else f"{amplitude['rotation'].values[full.argmax()]:.2f}",
-            "" if force is None else f"{exact * 1e-3:.2f}",
+            "" if force is None else pull.number(exact),
             *(f"{abs(value / exact - 1.0):.0e}" if exact else "" for value in found),
         )
 

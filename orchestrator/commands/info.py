@@ -50,7 +50,7 @@ def show_train(source: str, console: Console) -> None:
     gravity = ", ".join(f"{g:g}" for g in train.gravity)
     console.print(
         f"[bold]{train.name}[/bold]  {train.length:g} m, {train.mass:.5g} kg, "
-        f"{train.speed / HERTZ:g} Hz, gravity ({gravity}) m/s2",
+        f"{train.speed / HERTZ:g} Hz ({60.0 * train.speed / HERTZ:.6g} rev/min), gravity ({gravity}) m/s2",
         highlight=False,
     )
     console.print(_seats(train), _bodies(train), _shaft(train), sep="\n")

@@ -102,7 +102,8 @@ def mode_table(case: LinearCase, data: xr.Dataset) -> Table:
         "largest at\nz \\[m]",
         "nearest\nbearing",
     ):
-        table.add_column(name, justify="left" if name in ("whirl", "nearest\nbearing") else "right")
+        left = name in ("whirl", "nearest\nbearing")
+        table.add_column(name, justify="left" if left else "right", no_wrap=name == "whirl")
     z = data["z"].values
     x, y = (data[f"{axis}_real"].values + 1j * data[f"{axis}_imaginary"].values for axis in "xy")
     size, _, _ = half_axes(x, y)

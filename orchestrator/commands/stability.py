@@ -92,7 +92,10 @@ def damping_table(case: LinearCase, found: Stability) -> Table:
             ratio if worst.stable else f"[bold red]{ratio}[/bold red]",
             f"{worst.log_decrement:.3f}",
         )
-    table.caption = "Of modes up to twice the speed of rotation, and of those that grow."
+    table.caption = (
+        "Of modes up to twice the speed of rotation, and of those that grow; where there are none, of the "
+        "lowest two."
+    )
     return table
 
 

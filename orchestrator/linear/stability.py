@@ -13,6 +13,8 @@ from orchestrator.linear.case import HERTZ, LinearCase
 from orchestrator.linear.operating_point import OverSpeed, bearing_data
 from orchestrator.linear.response import Response, followed, resonant_speeds
 from rotor_fmu.linear.analysis import (
+    NOISE,
+    REACH,
     CriticalSpeed,
     LeastDamped,
     Tracks,
@@ -22,11 +24,12 @@ from rotor_fmu.linear.analysis import (
     thresholds,
     undamped_critical_speeds,
 )
+from rotor_fmu.train.train import Train
 
 Array = NDArray[np.float64]
 
 LEAST_DAMPED = 8
-"""Modes whose damping is shown: the least damped somewhere."""
+"""Modes whose damping is shown: the least damped somewhere, of those that count there."""
 
 MAP_POINTS, MAP_DECADES, MAP_MODES = 41, 3.0, 6
 """Stiffnesses of the map, decades each way from that of the bearings, and critical speeds of each."""
@@ -106,7 +109,7 @@ def stability(case: LinearCase, films: OverSpeed, highest: float) -> Stability:
         [least_damped_of(modes, speed) for modes, speed in zip(tracks.modes, speeds, strict=True)],
         _mode_data(case, tracks, speeds),
         _chart(case, films),
-        bearing_data(points, case.train, case.films_over_speed),
+        standing(bearing_data(points, case.train, case.films_over_speed), case.train),
         [(root / HERTZ, above) for root, above in thresholds(along.modes_at, speeds)],
         critical,
         response,
@@ -114,13 +117,42 @@ def stability(case: LinearCase, films: OverSpeed, highest: float) -> Stability:
     )
 
 
+def standing(bearings: xr.Dataset, train: Train) -> xr.Dataset:
+    """With the stiffness of films and pedestals in series, where bearings stand on such.
+
+    Of the motion at the speed of rotation: Z = K + i W C of the film, k - m W^2 + i W d of the pedestal; the
+    real part of what both together have, in x and y.
+    """
+    if not any(seat.pedestal for seat in train.bearings):
+        return bearings
+    speed = HERTZ * bearings["rotation"].values[:, None, None, None]
+    planar = np.s_[:, :, :2, :2]
+    film = bearings["stiffness"].values[planar] + 1j * speed * bearings["damping"].values[planar]
+    both = np.full(bearings["stiffness"].shape, np.nan)
+    both[planar] = film.real
+    for k, seat in enumerate(train.bearings):
+        if seat.pedestal is None:
+            continue
+        mass, spring, damper = (np.array(x) for x in (seat.pedestal.mass, seat.pedestal.stiffness,
+                                                      seat.pedestal.damping))  # fmt: skip
+        for row, rotation in enumerate(speed.ravel()):
+            below = np.diag(spring - mass * rotation**2 + 1j * rotation * damper)
+            series = film[row, k] @ np.linalg.solve(film[row, k] + below, below)
+            both[row, k, :2, :2] = series.real
+    words = {"units": "N/m", "long_name": "film and pedestal in series at the speed of rotation, real part"}
+    return bearings.assign(stiffness_on_pedestal=(bearings["stiffness"].dims, both, words))
+
+
 def _mode_data(case: LinearCase, tracks: Tracks, speeds: list[float]) -> xr.Dataset:
     """Frequency and damping of the modes that are least damped somewhere (rotation, mode)."""
     ratio = tracks.of(lambda modes: modes.damping_ratio)
     ratio = np.where(ratio < STRONGEST_DAMPING, ratio, np.nan)
-    known = np.isfinite(ratio).any(axis=0)
-    least = np.where(known, np.nanmin(np.where(known, ratio, np.inf), axis=0), np.inf)
-    chosen = np.sort(np.argsort(least)[: min(LEAST_DAMPED, int(known.sum()))])
+    known = np.isfinite(ratio)
+    reach = REACH * np.array(speeds)[:, None]
+    counts = known & ((tracks.of(lambda modes: modes.frequency) <= reach) | (ratio < -NOISE))
+    counts = counts if counts.any() else known  # as `least_damped_of`, of which the verdict and the table are
+    least = np.min(np.where(counts, ratio, np.inf), axis=0)
+    chosen = np.sort(np.argsort(least)[: min(LEAST_DAMPED, int(counts.any(axis=0).sum()))])
     dims = ("rotation", "mode")
 
     def shown(values: Array) -> Array:

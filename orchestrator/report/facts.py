@@ -20,9 +20,8 @@ from orchestrator.results.signals.orders import order_amplitudes, probe_signals,
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, defect_statistics
 from orchestrator.results.verdicts.conclusion import Conclusion, conclude
 from orchestrator.results.verdicts.verdict import Grade, Verdict
-from orchestrator.results.windows import Phase
-from orchestrator.scenario.events import BladeLoss, Event
-from orchestrator.scenario.schedule import from_attributes
+from orchestrator.results.windows import Phase, events_in_words
+from rotor_fmu.linear.analysis import DEFAULT_SIZE
 
 _CHANGING = 4.0
 """Revolutions over which amplitudes are taken where the speed changes."""
@@ -101,14 +100,8 @@ def trust(result: Result) -> Iterator[Fact]:
 def _course(result: Result) -> str:
     """What happens in a run, and when."""
     start, end = result.time[0], result.time[-1]
-    events = [event for event in from_attributes(result.record.attrs).events if event.time <= end]
-    parts = [f"{start:.4g} to {end:.4g} s", *(_event(event) for event in events)]
-    return "; ".join(parts if events else [*parts, "nothing happens"])
-
-
-def _event(event: Event) -> str:
-    much = f", {event.unbalance:.4g} kg m" if isinstance(event, BladeLoss) else ""
-    return f"{event.text} at {event.time:.4g} s{much}"
+    happened = events_in_words(result.record) or ("nothing happens",)
+    return "; ".join([f"{start:.4g} to {end:.4g} s", *happened])
 
 
 def _defect(result: Result) -> Iterator[Fact]:
@@ -156,7 +149,13 @@ def _model(result: Result) -> str:
     if "columns" in film:
         parts.append(f"film {film['columns']} × {film['rows']}")
     if "reduction" in attributes:
-        parts.append(f"shaft reduced by {attributes['reduction']}")
+        size = 4 * int(result.record.sizes.get("node", DEFAULT_SIZE))
+        reduced = attributes["reduction"] != "none" and size > DEFAULT_SIZE
+        parts.append(
+            f"shaft reduced by {attributes['reduction']}"
+            if reduced
+            else f"shaft of {size} degrees of freedom, not reduced"
+        )
     speeds = [result.speed] if result.changing_speed is None else result.changing_speed[[0, -1]]
     parts.append(" to ".join(f"{abs(speed) / (2 * math.pi) * 60:.0f}" for speed in speeds) + " rev/min")
     return ", ".join(parts)

@@ -46,10 +46,12 @@ class Quantity:
     def fitting(self, largest: float) -> Quantity:
         """With a smaller unit where the largest value shown would be all zeros behind the point.
 
-        ``MN`` becomes ``kN`` and ``kN`` becomes ``N`` (also in moments), so that machines of
-        a few kilograms can be read, too.
+        ``MN`` becomes ``kN``, ``kN`` becomes ``N`` (also in moments) and ``mm`` becomes ``µm``, so that
+        machines of a few kilograms can be read, too.
         """
         found = self
+        if self.unit == "mm" and 0 < abs(largest) * self.factor < 0.1:
+            return replace(self, unit="µm", factor=self.factor * 1e3, digits=".1f")
         for large, small in (("MN", "kN"), ("kN", "N")):
             if found.unit.startswith(large) and 0 < abs(largest) * found.factor < 0.1:
                 found = replace(found, unit=small + found.unit.removeprefix(large), factor=found.factor * 1e3)

@@ -31,7 +31,7 @@ from orchestrator.results.statistics import (
 )
 from orchestrator.results.validity import ErrorEstimate, error_estimate
 from orchestrator.results.verdicts.judge import worst_bearing
-from orchestrator.results.windows import Phase, instants, phases
+from orchestrator.results.windows import Phase, events_in_words, instants, phases
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -117,6 +117,8 @@ class RunSummary:
         Whether the films are laminar, by bearing.
     certificate : Certificate or None
         What halving the step changes, if that was asked for.
+    events : tuple of str
+        What happened and when, in words; where the speed changes, at what speed.
     missing : tuple of MissingValues
         What bearings did not give as a number at some instants; statistics leave it out.
     """
@@ -149,6 +151,7 @@ class RunSummary:
     certificate: Certificate | None = None
     least_damped: Stability | None = None
     missing: tuple[MissingValues, ...] = ()
+    events: tuple[str, ...] = ()
 
     def of_phase(self, phase: Phase) -> tuple[BearingStatistics, ...]:
         """Statistics of all bearings in one phase."""
@@ -242,6 +245,7 @@ def summarise(result: Result, *, analysed: str | None = None) -> RunSummary:
         films=regimes(record),
         least_damped=_stability(record),
         missing=missing_values(record) if samples else (),
+        events=events_in_words(record) if samples else (),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import StringIO
 
 from rich import box
@@ -16,7 +16,15 @@ from orchestrator.results.certificate import CERTIFIED, Certificate
 from orchestrator.results.film_regime import regime_text
 from orchestrator.results.ledger import LedgerSummary
 from orchestrator.results.missing_values import missing_text
-from orchestrator.results.quantities import AMPLITUDE, CONTACT_PRESSURE, FORCE, GAP, MOMENT, STRESS
+from orchestrator.results.quantities import (
+    AMPLITUDE,
+    CONTACT_PRESSURE,
+    FORCE,
+    GAP,
+    MOMENT,
+    STRESS,
+    Quantity,
+)
 from orchestrator.results.statistics import CONTACT_SHARE, BearingStatistics
 from orchestrator.results.summary import RunSummary
 from orchestrator.results.validity import ALLOWED, PROMISED, ErrorEstimate
@@ -58,10 +66,11 @@ def _contact_text(summary: RunSummary) -> str:
 
 
 def _shaft_text(summary: RunSummary) -> Iterable[tuple[str, str]]:
+    amplitude = AMPLITUDE.fitting(max((row.amplitude_max for row in summary.shaft), default=0.0))
     for row in summary.shaft:
         yield (
             f"shaft {row.phase}",
-            f"largest amplitude {AMPLITUDE.text(row.amplitude_max)} at z = {row.amplitude_position:.1f} m, "
+            f"largest amplitude {amplitude.text(row.amplitude_max)} at z = {row.amplitude_position:.1f} m, "
             f"largest stress {STRESS.text(row.stress_max)} at z = {row.stress_position:.1f} m",
         )
 
@@ -153,6 +162,7 @@ def _facts(summary: RunSummary) -> Table:
         ("outcome", Text(outcome, style="green" if summary.finished else "bold red")),
         *_stability_row(summary),
         ("simulated", _steps_text(summary)),
+        *([("events", "; ".join(summary.events))] if summary.events else []),
         ("depth", summary.depth_text()),
         ("coupling", summary.coupling),
         (
@@ -202,9 +212,16 @@ class _Column:
     kept: bool = True
 
 
+def _readable(quantity: Quantity, largest: float) -> Quantity:
+    """In the unit that suits the largest value of a table, and with three digits of it."""
+    found = quantity.fitting(largest)
+    return replace(found, digits=".3f") if abs(largest) * found.factor < 1.0 else found
+
+
 def _columns(summary: RunSummary) -> list[_Column]:
-    force = FORCE.fitting(max(row.force_max for row in summary.bearings))
-    moment = MOMENT.fitting(max(row.moment_max for row in summary.bearings) or 1.0 / force.factor)
+    force = _readable(FORCE, max(row.force_max for row in summary.bearings))
+    largest = max(row.moment_max for row in summary.bearings)
+    moment = _readable(MOMENT, largest) if largest else MOMENT.fitting(1.0 / force.factor)
 
     def contact(shown: Callable[[BearingStatistics], str]) -> Callable[[BearingStatistics], str]:
         return lambda row: "-" if row.contact_first is None else shown(row)

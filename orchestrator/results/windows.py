@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from orchestrator.results.quantities import HERTZ
+from orchestrator.scenario.events import BladeLoss
 from orchestrator.scenario.schedule import Schedule, from_attributes
 
 if TYPE_CHECKING:
@@ -106,6 +108,19 @@ def instants(record: xr.Dataset) -> tuple[float, ...]:
     if time.size == 0:
         return ()
     return tuple(at for at in from_attributes(record.attrs).instants if at < time[-1] - _TOLERANCE)
+
+
+def events_in_words(record: xr.Dataset) -> tuple[str, ...]:
+    """What happens in a recorded run, when, and at what speed where it changes; in the order of time."""
+    schedule, end = from_attributes(record.attrs), float(record["time"].values[-1])
+    words = []
+    for event in schedule.events:
+        if event.time <= end:
+            much = f", {event.unbalance:.4g} kg m" if isinstance(event, BladeLoss) else ""
+            turning = abs(schedule.speed_at(event.time)) / HERTZ * 60.0
+            at = f", at {turning:.0f} rev/min" if schedule.course else ""
+            words.append(f"{event.text} at {event.time:.4g} s{much}{at}")
+    return tuple(words)
 
 
 def phases(record: xr.Dataset) -> tuple[Phase, ...]:

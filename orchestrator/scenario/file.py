@@ -11,11 +11,10 @@ from pydantic import ValidationError
 
 from bearing_fmu.depths import LINEAR
 from orchestrator.errors import OrchestratorError, ScenarioError
+from orchestrator.scenario.film_problems import depth_problems, film_problems
 from orchestrator.scenario.problems import (
-    depth_problems,
     event_problems,
     file_problems,
-    film_problems,
     name_problems,
     shape_problems,
     time_problems,

@@ -11,7 +11,6 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from bearing_fmu import depths
 from bearing_fmu.depths import LINEAR
 from orchestrator.scenario.events import KINDS, BladeLoss, Change, Event, Switch
 from orchestrator.scenario.scenario import Scenario, is_fmu
@@ -157,43 +156,6 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
         )
 
 
-def film_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
-    """Yield settings of the films that a depth in use does not offer."""
-    boundary = scenario.film.boundary
-    used = {scenario.depth_of(seat.name) for seat in train.bearings}
-    for depth in depths.depths():
-        if depth.name in used.intersection(depths.films()) and boundary not in depth.boundaries:
-            yield (
-                ("film", "boundary"),
-                f"film.boundary = {boundary!r}; allowed at depth {depth.name} is "
-                f"{' or '.join(map(repr, depth.boundaries))}",
-            )
-    if scenario.film.temperature == "followed":
-        yield from _heat_problems(scenario, train, used)
-    for seat in train.bearings if boundary == "jfo" else ():
-        if seat.has_film and not seat.has_grooves and not seat.ambient_pressure > 0.0:
-            yield (
-                ("film", "boundary"),
-                f"film.boundary = {boundary!r}; allowed with oil at each bearing; {seat.name} has neither "
-                "grooves nor an ambient_pressure > 0",
-            )
-
-
-def _heat_problems(scenario: Scenario, train: Train, used: set[str]) -> Iterator[Problem]:
-    """Yield what does not go with an oil that warms in time."""
-    place, word = ("film", "temperature"), f"film.temperature = {scenario.film.temperature!r}"
-    if "table" in used or scenario.film.boundary == "jfo":
-        yield place, f"{word}; allowed at depths v1, v2 and v3, with film.boundary 'guembel' or 'reynolds'"
-    for seat in train.bearings:
-        if seat.has_film and seat.oil is None:
-            yield (
-                place,
-                f"{word}; allowed with an oil at each bearing, a grade or a curve; {seat.name} has none",
-            )
-        if seat.has_film and seat.layer_thickness > 0.0:
-            yield place, f"{word}; allowed with rigid bores; {seat.name} has a layer_thickness"
-
-
 def event_problems(scenario: Scenario) -> Iterator[Problem]:
     """Yield events that lack what they need."""
     for index, event in enumerate(scenario.events):
@@ -206,18 +168,6 @@ def event_problems(scenario: Scenario) -> Iterator[Problem]:
             yield (
                 ("events", index, "bearing"),
                 f"{where}; allowed is one with a film: this is of depth linear",
-            )
-
-
-def depth_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
-    """Yield films asked for at bearings without a bore."""
-    for seat in train.bearings:
-        depth = scenario.depth_at.get(seat.name, LINEAR.name)
-        if not seat.has_film and depth in depths.films():
-            yield (
-                ("depth_at", seat.name),
-                f"depth_at.{seat.name} = {depth!r}; allowed is {LINEAR.name!r} or an .fmu file: the train "
-                "gives stiffness and damping of this bearing, and no bore",
             )
 
 

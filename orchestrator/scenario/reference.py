@@ -64,7 +64,7 @@ _TRAIN: tuple[tuple[str, type[BaseModel], tuple[type, ...]], ...] = (
 _OWN_WORDS = {  # of a key in any table, or in one
     "shaft": "Name of the table of shoulders beside the file.",
     "z": "Axial position.",
-    "name": "1 to 40 letters, digits, spaces, points, hyphens and underscores.",
+    "name": "1 to 40 letters a to z, digits, spaces, points, hyphens and underscores.",
     "preload": "1 - (least gap of the centred journal) / clearance, of bores of lobes; of pads at the pivot.",
     "offset": "Share of a lobe's length at which it comes closest, of a pad its pivot; usually 0.5.",
     "first": "Angle at which a lobe, or the share of a pad, begins, from x towards y.",

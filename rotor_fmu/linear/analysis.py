@@ -11,6 +11,7 @@ from functools import lru_cache
 from rotor_fmu.linear.critical import (
     LEAST_DECREMENT,
     NOISE,
+    REACH,
     CriticalSpeed,
     LeastDamped,
     critical_speeds,
@@ -42,6 +43,7 @@ __all__ = [
     "LEAST_DECREMENT",
     "METHODS",
     "NOISE",
+    "REACH",
     "CriticalSpeed",
     "HarmonicResponse",
     "LeastDamped",

@@ -13,8 +13,8 @@ Name = Annotated[
     str,
     Field(
         pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.\-]{0,39}$",
-        description="1 to 40 letters, digits, spaces, points, hyphens and underscores, a letter or digit "
-        "first",
+        description="1 to 40 letters a to z, digits, spaces, points, hyphens and underscores, a letter or "
+        "digit first",
     ),
 ]
 """Of trains, bearings, wheels, couplings and masses alike."""

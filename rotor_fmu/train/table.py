@@ -117,6 +117,11 @@ def _header(cells: Sequence[str], columns: Mapping[str, str], required: Sequence
         name = re.sub(r"[\s\-_]+", "_", found[1]).casefold()
         header.append(_Column(name, found[2] or ""))
         if name and name != "remark" and name not in columns:
+            head, _, unit = cell.strip().rpartition(" ")
+            if re.sub(r"[\s\-_]+", "_", head).casefold() in columns:
+                raise TableError(
+                    f"header: column {cell!r}; did you mean '{head} [{unit}]'? A unit has brackets"
+                )
             raise TableError(f"header: column {cell!r}; {choice(name, [*columns, 'remark'])}")
         if found[2] and name in columns:
             if not columns[name]:

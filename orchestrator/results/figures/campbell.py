@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 MARKS_EVERY = 4
 """Reduced shafts are marked at every so many speeds, so that the lines below stay visible."""
+HIGHEST_ORDER, LOWEST = 4.0, 6
+"""A diagram on films reaches up to this multiple of the highest speed, and so many modes at least."""
 LEAST = 1e-9
 """Lower end of the axis of errors: below is rounding."""
 _ARROW = {"forward": "▲", "backward": "▼"}
@@ -116,6 +118,12 @@ def _speed_lines(axes: Axes, rotation: np.ndarray, top: float, train: Train) -> 
     style.dress(axes)
 
 
+def _top(frequency: np.ndarray, rotation: np.ndarray) -> float:
+    """Highest frequency of the diagram: where modes lie far above the rotation, it shows the lower ones."""
+    lowest = np.sort(np.nanmax(frequency, axis=0))[:LOWEST]
+    return min(float(np.nanmax(frequency)), max(HIGHEST_ORDER * float(rotation[-1]), float(lowest[-1])))
+
+
 def _errors(axes: Axes, data: xr.Dataset) -> None:
     """Largest error of the frequencies over speed, on a logarithmic axis."""
     rotation = data["rotation"].values
@@ -200,13 +208,13 @@ def supported_figure(data: xr.Dataset, train: Train) -> Figure:
         np.repeat(rotation[::MARKS_EVERY], data.sizes["mode"]), reduced.ravel(), linestyle="none", marker="o",
         markersize=5.0, markerfacecolor="none", markeredgecolor="#222222", markeredgewidth=0.6, zorder=3,
     )  # fmt: skip
-    _speed_lines(axes, rotation, float(np.max(full["frequency"])), train)
+    top = _top(full["frequency"].values, rotation)
+    _speed_lines(axes, rotation, top, train)
     axes.set_ylabel("damped frequency [Hz]")
-    axes.set_title(
-        "dots: unreduced shaft, small where damping ratio > 0.3;  rings: reduced by IRS (default)",
-        loc="left",
-        fontsize=style.FONT,
-    )
+    words = "dots: unreduced shaft, small where damping ratio > 0.3;  rings: reduced by IRS (default)"
+    above = int(np.sum(np.nanmin(full["frequency"].values, axis=0) > 1.06 * top))
+    words += f"\n{above} modes above: in the table" if above else ""
+    axes.set_title(words, loc="left", fontsize=style.FONT)
     bar = axes.figure.colorbar(shown, ax=axes, location="bottom", fraction=0.02, pad=0.02, ticks=[-1, 0, 1])
     bar.ax.set_xticklabels(["backward whirl", "in a plane", "forward whirl"], fontsize=style.FONT - 1)
     axes = panels["damping"]

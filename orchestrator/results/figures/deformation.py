@@ -20,6 +20,8 @@ SHOWN_DEFLECTION = 0.05
 """Length of the largest deflection as drawn, at most, as a share of the train's length."""
 SHOWN_FORCE = 0.06
 """The same of the largest force."""
+TALLEST = 0.45
+"""Height of a panel over its width, at most; a short train with wide wheels leaves room on either side."""
 _SMALLEST = 1e-9  # m and N, so that a train at rest can be drawn
 
 
@@ -59,6 +61,8 @@ class Scales:
     ----------
     length : float
         Length of the train [m].
+    width : float
+        Length of the axis that a panel shows [m]: the train's, or more where it is short and wide.
     deflection : float
         How many times larger than the geometry the deflection is drawn.
     force : float
@@ -72,6 +76,7 @@ class Scales:
     """
 
     length: float
+    width: float
     deflection: float
     force: float
     largest_force: float
@@ -91,7 +96,7 @@ class Scales:
     @property
     def height(self) -> float:
         """Height of a panel over its width."""
-        return 2.0 * self.limit * self.aspect / self.length
+        return 2.0 * self.limit * self.aspect / self.width
 
 
 def scales_of(records: Sequence[xr.Dataset], instants: Sequence[int], train: Train | None) -> Scales:
@@ -106,12 +111,13 @@ def scales_of(records: Sequence[xr.Dataset], instants: Sequence[int], train: Tra
     if train is not None:
         diameters = [s.widest for s in train.shoulders] + [w.mean_diameter for w in train.wheels]
         radius = max(diameters) / 2
-    reach = drawn + max(1.1 * radius, SHOWN_FORCE * length)
+    reach = 1.05 * (drawn + max(1.1 * radius, SHOWN_FORCE * length))
     return Scales(
         length=length,
+        width=max(length, 2.0 * reach / TALLEST),
         deflection=deflection,
         force=SHOWN_FORCE * length * 1e3 / deflection / max(force, _SMALLEST),
         largest_force=force,
-        limit=1.05 * reach * 1e3 / deflection,
+        limit=reach * 1e3 / deflection,
         stress=max(float(record["stress"].isel(time=index).max()) for record, index in pairs),
     )

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 LEAST_ARROW = 0.02
 """Shorter arrows than this share of the panel's half height would be nothing but head: they are left out."""
 NAME_WIDTH = 0.078
-"""Room for a bearing's name, as a share of the train's length."""
+"""Room for a bearing's name, as a share of a panel's width."""
 PANEL_WIDTH = 11.5  # inches
 _PLANES = (("y", "vertical plane, seen from the side"), ("x", "horizontal plane, seen from above"))
 
@@ -71,7 +71,8 @@ def _key(axes: Axes, scales: Scales) -> None:
     force = nice(scales.largest_force) if scales.largest_force > 0 else 0.0
     if force == 0.0:
         return
-    y, end = scales.limit + 0.011 * scales.length / scales.aspect, scales.length
+    y = scales.limit + 0.011 * scales.width / scales.aspect
+    end = 0.5 * (scales.length + scales.width)
     start = end - force * scales.force * scales.aspect
     _arrow(axes, (end, y), (start, y), "#333333")
     axes.annotate(
@@ -92,12 +93,12 @@ def _names(axes: Axes, record: xr.Dataset, index: int, z: NDArray[np.float64], s
     force = record["force"].isel(time=index).transpose("bearing", "axis").values
     size = np.hypot(force[:, 0], force[:, 1])
     shown = quantities.FORCE.fitting(float(size.max()))
-    places = spread([float(z[i]) for i in order], NAME_WIDTH * scales.length)
+    places = spread([float(z[i]) for i in order], NAME_WIDTH * scales.width)
     for place, i in zip(places, order, strict=True):
         axes.annotate(
             f"{record['bearing'].values[i]}\n{shown.text(float(size[i]))}",
             (float(z[i]), -scales.limit),
-            (place, -scales.limit - 0.021 * scales.length / scales.aspect),
+            (place, -scales.limit - 0.021 * scales.width / scales.aspect),
             ha="center",
             va="top",
             fontsize=style.FONT - 1.5,
@@ -129,7 +130,8 @@ def _panel(
             colour = style.colour_of(style.depth_at(record, str(name)))
             _arrow(axes, (float(place), float(journal)), (float(place), float(journal - value)), colour)
     axes.set_aspect(scales.aspect)
-    axes.set_xlim(z[0] - 0.01 * z[-1], z[-1] * 1.01)
+    room = 0.5 * (scales.width - scales.length) + 0.01 * scales.width
+    axes.set_xlim(z[0] - room, z[-1] + room)
     axes.set_ylim(-scales.limit, scales.limit)
     axes.set_ylabel(f"{plane} [mm]")
     style.dress(axes)

@@ -85,9 +85,11 @@ def forces_and_moments(records: Sequence[xr.Dataset], bearing: str | None = None
     ratios = [1.4] * len(records) + [1.0]
     grid = figure.subplots(2, columns, sharey="row", squeeze=False, width_ratios=ratios)
     whole, near = panels.whole_run(records), panels.close_up(records)
+    quantity = quantities.FORCE
     for row, (name, shown) in enumerate(_ROWS):
         largest = max(float(statistics.magnitude(record, name, bearing).max()) for record in records)
-        quantity = shown.fitting(largest)
+        # an axis without any moment has the unit that goes with the forces above it
+        quantity = shown.fitting(largest or 1.0 / quantity.factor)
         for column, record in enumerate(records):
             _whole(
                 grid[row, column],

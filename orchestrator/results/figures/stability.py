@@ -8,7 +8,7 @@ import numpy as np
 
 from orchestrator.results.figures import style
 from orchestrator.results.quantities import HERTZ
-from rotor_fmu.linear.analysis import LEAST_DECREMENT
+from rotor_fmu.linear.analysis import LEAST_DECREMENT, REACH
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,7 +50,10 @@ def _decrements(axes: Axes, modes: xr.Dataset, train: Train) -> None:
         line = modes.sel(mode=mode)
         hertz = float(line["frequency"][rated])
         label = f"{hertz:.4g} Hz at rated speed" if np.isfinite(hertz) else "not at rated speed"
-        axes.plot(rotation, line["log_decrement"].values, color=colour, linewidth=1.4, label=label)
+        values = line["log_decrement"].values
+        counts = (line["frequency"].values <= REACH * rotation) | (values < 0.0)
+        axes.plot(rotation, values, color=colour, linewidth=0.6, alpha=0.6)
+        axes.plot(rotation, np.where(counts, values, np.nan), color=colour, linewidth=1.6, label=label)
     axes.axhline(0.0, color="#CC0000", linewidth=1.0)
     axes.axhline(
         LEAST_DECREMENT, color="#CC0000", linewidth=0.9, linestyle=":", label=f"{LEAST_DECREMENT:g}, API 617"
@@ -58,7 +61,10 @@ def _decrements(axes: Axes, modes: xr.Dataset, train: Train) -> None:
     axes.set_yscale("symlog", linthresh=LEAST_DECREMENT)
     _rated(axes, rotation, train)
     axes.set_ylabel("logarithmic decrement [1]")
-    axes.set_title("least damped modes; below 0: unstable", loc="left", fontsize=style.FONT + 1)
+    axes.set_title(
+        f"least damped modes, thin above {REACH:g} × speed; below 0: unstable",
+        loc="left", fontsize=style.FONT + 1,
+    )  # fmt: skip
     axes.set_xlabel("speed of rotation [Hz]")
     _legend(axes)
 
@@ -84,10 +90,13 @@ def _map(axes: Axes, chart: xr.Dataset, bearings: xr.Dataset, train: Train) -> N
         axes.loglog(stiffness, chart["critical_speed"].sel(mode=mode).values, color="#222222", linewidth=1.3)
     speed = bearings["rotation"].values
     turning = speed > 0.0
+    on_pedestals = "stiffness_on_pedestal" in bearings
+    stands = "bearings on pedestals" if on_pedestals else "bearings"
+    name = "stiffness_on_pedestal" if on_pedestals else "stiffness"
     for wrench, move, colour in (("Fx", "x", "#0072B2"), ("Fy", "y", "#D55E00")):
-        direct = bearings["stiffness"].sel(wrench=wrench, displacement=move).values[turning]
+        direct = bearings[name].sel(wrench=wrench, displacement=move).values[turning]
         shown = np.where(direct > 0.0, direct, np.nan)
-        label = f"bearings, K{move}{move} over speed"
+        label = f"{stands}, K{move}{move} over speed"
         for k in range(shown.shape[1]):
             axes.loglog(
                 shown[:, k], speed[turning], color=colour, linewidth=0.9, label=label if k == 0 else None

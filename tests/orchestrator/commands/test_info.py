@@ -23,7 +23,7 @@ def shown(source):
 def test_the_example_as_it_was_read():
     text = shown(EXAMPLE)
     for words in (
-        "motor-compressor  2.1 m, 468.4 kg, 50 Hz, gravity (0, -9.80665) m/s2",
+        "motor-compressor  2.1 m, 468.4 kg, 50 Hz (3000 rev/min), gravity (0, -9.80665) m/s2",
         "130 x 0 steel; 300 x 130 sheets, mass only",
         "75.5 x 0 steel; 90 x 75.5 bronze",
         "90 x 0 to 120 x 0 steel",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,13 @@ def test_every_depth_of_a_bearing_side_by_side(tmp_path):
     assert float(rated["sommerfeld"]) == pytest.approx(train.bearings[0].sommerfeld(load, train.speed))
     text = (folder / "bearing.txt").read_text()
     assert "front of small" in text and "Kxx [GN/m]" in text
+
+
+def test_a_terminal_of_eighty_columns_cuts_no_figure_off(tmp_path):
+    said = io.StringIO()
+    assert investigate("small", tmp_path / "out", Console(file=said, width=80), depths=("v2", "v3")) == 0
+    assert "\u2026" not in said.getvalue()
+    assert "friction" in said.getvalue()
 
 
 def test_a_depth_without_the_bore_is_left_out_and_told(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from orchestrator.outcome import Outcome
-from orchestrator.results.quantities import FORCE, GAP, MOMENT
+from orchestrator.results.quantities import AMPLITUDE, FORCE, GAP, MOMENT
 from orchestrator.results.result import Result, Timing
 from orchestrator.results.summary import summarise
 from orchestrator.results.summary_table import to_text
@@ -95,6 +95,27 @@ def test_units_fit_small_machines():
     assert FORCE.fitting(6e4).unit == "kN"
     assert FORCE.fitting(60.0).text(60.0) == "60.00 N"
     assert MOMENT.fitting(600.0).text(600.0) == "0.60 kN m"
+    assert AMPLITUDE.fitting(3.4e-6).text(3.4e-6) == "3.4 µm"
+    assert AMPLITUDE.fitting(3.4e-4).text(3.4e-4) == "0.340 mm"
+
+
+def test_a_small_moment_is_not_zero():
+    record = synthetic_record.record()
+    for name in ("moment", "moment_magnitude_max", "moment_magnitude_min"):
+        if name in record:
+            record[name] = record[name] * (150.0 / float(np.abs(record["moment"]).max()))
+    row = next(line for line in to_text(summarise(result(record))).splitlines() if " LP2-front " in line)
+    assert not any(cell == "0.00" for cell in row.split()[3:5])
+
+
+def test_events_are_said_with_instant_and_speed():
+    record = synthetic_record.record()
+    assert summarise(result(record)).events == ("blade fracture at LP1-2 at 1 s, 265 kg m",)
+    course = "[[0.0, 100.0], [2.0, 300.0]]"
+    changing = record.assign_attrs(course=course)
+    (said,) = summarise(result(changing)).events
+    assert said.endswith(", at 1910 rev/min")
+    assert "events" in to_text(summarise(result(record)))
 
 
 def test_a_film_that_carries_nothing_is_said():

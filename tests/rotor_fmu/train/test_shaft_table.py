@@ -74,6 +74,8 @@ def test_a_table_as_spreadsheets_write_it(folder, kind, encoding):
     [
         (HEADER, "length [kg],outer_diameter,inner_diameter,material",
          "header: column 'length [kg]'; allowed is a number in m or in a unit of the same kind, as mm"),
+        (HEADER, "Length mm,outer_diameter,inner_diameter,material",
+         "header: column 'Length mm'; did you mean 'Length [mm]'? A unit has brackets"),
         (HEADER, "length,outer_diameter,length,material", "header: column 'length' occurs twice"),
         (HEADER, "outer_diameter,inner_diameter,material", "missing length; allowed are length, outer_diam"),
         (HEADER, HEADER + " [mm]", "column 'material [mm]'; allowed is material without a unit"),

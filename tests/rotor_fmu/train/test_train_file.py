@@ -43,8 +43,8 @@ IN_TOML = [
     ("poisson_ratio = 0.3", "poisson_ratio = 0.5",
      ["materials: steel: poisson_ratio = 0.5; allowed is a number less than 0.5"]),
     ('name = "small"', 'name = "small/train"',
-     ["name = 'small/train'; allowed is 1 to 40 letters, digits, spaces, points, hyphens and underscores, "
-      "a letter or digit first"]),
+     ["name = 'small/train'; allowed is 1 to 40 letters a to z, digits, spaces, points, hyphens and "
+      "underscores, a letter or digit first"]),
 ]  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -9,6 +10,9 @@ from rotor_fmu.train.wording import choice, shown
 
 TRAIN = "train."
 """What keys of the train begin with."""
+
+_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)")
+"""A number and its unit, as a train's file may give values."""
 
 
 class KeyPathError(ValueError):
@@ -40,11 +44,7 @@ def changed(data: Mapping[str, Any], key: str, value: Any, *, factor: bool = Fal
 
 def _put(here: Any, path: list[str], value: Any, factor: bool) -> Any:
     if not path:
-        if not factor:
-            return value
-        if isinstance(here, bool) or not isinstance(here, int | float):
-            raise KeyPathError(f"is {shown(here)} there; allowed is a number, for factor is true")
-        return here * value
+        return _times(here, value) if factor else value
     step, rest = path[0], path[1:]
     if isinstance(here, Mapping):
         # what is missing may be a key with a default, or a table: reading it says whether it is one
@@ -56,6 +56,18 @@ def _put(here: Any, path: list[str], value: Any, factor: bool) -> Any:
             for k, item in enumerate(here)
         ]
     raise KeyPathError(f"{step}: leads through {shown(here)}; allowed are keys of tables")
+
+
+def _times(here: Any, factor: Any) -> Any:
+    """A number times a factor, also one that a text gives with its unit, and each of a list."""
+    if isinstance(here, list) and here:
+        return [_times(item, factor) for item in here]
+    if isinstance(here, int | float) and not isinstance(here, bool):
+        return here * factor
+    found = _WITH_UNIT.fullmatch(here) if isinstance(here, str) else None
+    if found is None:
+        raise KeyPathError(f"is {shown(here)} there; allowed is a number, for factor is true")
+    return f"{float(found[1]) * factor!r} {found[2]}"
 
 
 def chosen(items: list[Any], step: str) -> list[int]:

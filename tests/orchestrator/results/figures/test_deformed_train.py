@@ -1,6 +1,7 @@
 """The picture of the deformed train: its scale, its stresses, the names of its bearings."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -53,6 +54,21 @@ def test_names_of_bearings_do_not_overlap(record, train):
     extents = sorted((text.get_window_extent() for text in names), key=lambda box: box.x0)
     for left, right in itertools.pairwise(extents):
         assert left.x1 < right.x0
+
+
+def test_a_short_train_with_wide_wheels_stays_on_its_page(record, train):
+    length = float(record["z"].values[-1])
+    wide = replace(train, wheels=tuple(replace(w, mean_diameter=1.4 * length) for w in train.wheels))
+    figure = deformed_train([record], wide)
+    width, height = figure.get_size_inches()
+    assert height < 1.1 * width
+    figure.canvas.draw()
+    vertical, _ = panel_axes(figure)
+    left, right = vertical.get_xlim()
+    assert left < -0.2 * length and right > 1.2 * length  # room on either side in place of height
+    box = vertical.get_position()
+    assert box.width * width > 0.7 * width  # the panel is as wide as others
+    assert max(abs(y) for y in vertical.get_ylim()) * vertical.get_aspect() > 0.7 * length
 
 
 def test_deformed_train_without_train_or_positions(record):

@@ -31,6 +31,18 @@ def test_forces_and_moments_equal_the_record(record):
     np.testing.assert_allclose(near.get_xdata(), (record["time"].values - 1.0) * 1e3, atol=1e-9)
 
 
+def test_an_axis_without_moments_has_the_unit_of_the_forces(record):
+    small = record.copy()
+    for name in record.data_vars:
+        if str(name).startswith("moment"):
+            small[name] = 0.0 * record[name]
+        if str(name).startswith("force"):
+            small[name] = 1e-4 * record[name]
+    grid = panel_axes(forces_and_moments([small]))
+    force, moment = grid[0].get_ylabel(), grid[2].get_ylabel()
+    assert (force, moment) == ("bearing force [kN]", "bearing moment [kN m]")
+
+
 def test_peaks_between_samples_are_drawn_and_marked(record):
     axes = panel_axes(forces_and_moments([record]))[0]
     extremes = statistics.series(record, "force_magnitude_max", BEARING) * 1e-6

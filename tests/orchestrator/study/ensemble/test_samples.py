@@ -77,6 +77,9 @@ def test_keys_lead_through_tables_and_lists_and_leave_the_original():
     assert changed(data, "bearing.rear.c", 9.0)["bearing"][1] == {"name": "rear", "c": 9.0}
     assert [b["c"] for b in changed(data, "bearing.*.c", 2.0, factor=True)["bearing"]] == [2.0, 4.0]
     assert changed(data, "bearing.0.c", 5.0)["bearing"][0]["c"] == 5.0
+    drawn = {"bearing": [{"c": "75 um", "k": ["20 kN/mm", 3.0]}]}
+    assert changed(drawn, "bearing.*.c", 0.5, factor=True)["bearing"][0]["c"] == "37.5 um"
+    assert changed(drawn, "bearing.0.k", 2.0, factor=True)["bearing"][0]["k"] == ["40.0 kN/mm", 6.0]
     assert changed(data, "new.key", 5.0)["new"] == {"key": 5.0}
     assert data["bearing"][1]["c"] == 2.0 and "new" not in data
     with pytest.raises(KeyPathError, match="reer: did you mean 'rear'"):
