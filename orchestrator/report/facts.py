@@ -15,7 +15,7 @@ from orchestrator.report.source import Result
 from orchestrator.results.journals import probes_of
 from orchestrator.results.least_damped import least_damped_of
 from orchestrator.results.ledger import ledger_of
-from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown
+from orchestrator.results.quantities import FORCE, GAP, VIBRATION, shown, small
 from orchestrator.results.signals.orders import order_amplitudes, probe_signals, turned_angle
 from orchestrator.results.statistics import bearing_statistics, contact_threshold, defect_statistics
 from orchestrator.results.verdicts.conclusion import Conclusion, conclude
@@ -207,8 +207,8 @@ def bearing_lines(result: Result) -> Iterator[BearingLine]:
             GAP.text(start.least_gap_min),
             GAP.text(end.least_gap_min),
             "-" if end.contact_first is None else f"{100.0 * end.contact_share:.0f} %",
-            VIBRATION.text(swing),
-            *(f"{a * 1e6:.1f} µm" for a in (orders[0], once_before[1], orders[1], orders[2])),
+            VIBRATION.text(swing) if not swing < 1e-5 else small(swing),
+            *(small(a) for a in (orders[0], once_before[1], orders[1], orders[2])),
         )
         grade = max((v.grade for v in own), key=lambda g: g.rank, default=Grade.WITHIN)
         yield BearingLine(bearing, cells, grade)

@@ -74,6 +74,14 @@ RATIO = Quantity("ratio", "", 1.0, ".3g")
 SHARE = Quantity("share", "%", 100.0, ".2g")
 
 
+def small(value: float) -> str:
+    """A length [m] in µm: a digit behind the point, and of less than one µm two digits; a dash for none."""
+    size = 1e6 * value
+    if math.isnan(size):
+        return "-"
+    return f"{size:.1f} µm" if abs(size) >= 1.0 or size == 0.0 else f"{size:.2g} µm"
+
+
 def shown(value: float, quantity: Quantity) -> str:
     """A value in the unit that suits its size."""
     if value == 0.0:

@@ -9,7 +9,7 @@ revolutions of the run's schedule; they belong to every number, so they travel w
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -135,7 +135,8 @@ def phases(record: xr.Dataset) -> tuple[Phase, ...]:
     -------
     tuple of Phase
         ``(before, after)``; ``(steady,)`` without event; ``(after,)`` when the event
-        comes at or before the first sample; ``(before, after 1, after 2)`` and so on.  A phase shorter
+        comes at or before the first sample; ``(before, after 1, after 2)`` and so on, without those in
+        which nothing was recorded.  A phase shorter
         than its window is used as it is, and when it ends before the transient has had its time, its last
         half serves for means; `Phase.note` says so.
 
@@ -154,10 +155,28 @@ def phases(record: xr.Dataset) -> tuple[Phase, ...]:
     found = []
     if ends[0] > first + _TOLERANCE:
         found.append(_undisturbed(schedule, first, ends[0], recorded_on=bool(events)))
+    unseen = ""
     for number, (event, end) in enumerate(itertools.pairwise(ends), 1):
         name = "after" if len(events) == 1 else f"after {number}"
-        found.append(_disturbed(schedule, name, event, Window(max(first, event), end), end == last))
-    return tuple(found)
+        whole = Window(max(first, event), end)
+        if not whole.mask(time).any():  # a shorter time than that between two records
+            unseen += f"{'; ' if unseen else ''}no instant was recorded in {name}"
+            continue
+        phase = _disturbed(schedule, name, event, whole, end == last)
+        notes = "; ".join(filter(None, (phase.note, unseen)))
+        found.append(replace(phase, note=notes))
+        unseen = ""
+    return tuple(_seen(phase, time) for phase in found)
+
+
+def _seen(phase: Phase, time: NDArray[np.float64]) -> Phase:
+    """The phase, its windows begun earlier where records are so rare that none would lie in them."""
+    windows = {}
+    for name in ("mean", "peak"):
+        window: Window = getattr(phase, name)
+        if not window.mask(time).any():
+            windows[name] = Window(float(time[time <= window.end + _TOLERANCE][-1]), window.end)
+    return replace(phase, **windows) if windows else phase
 
 
 def _undisturbed(schedule: Schedule, first: float, end: float, *, recorded_on: bool) -> Phase:

@@ -16,6 +16,7 @@ from orchestrator.scenario.problems import (
     event_problems,
     file_problems,
     name_problems,
+    scale_problems,
     shape_problems,
     time_problems,
     unbalance_problems,
@@ -186,6 +187,7 @@ def _checked(
         problems += time_problems(scenario, train)
         problems += unbalance_problems(scenario, train)
         problems += event_problems(scenario)
+        problems += scale_problems(scenario, train)
         problems += depth_problems(scenario, train)
         problems += film_problems(scenario, train)
     if scenario is None or train is None or problems:

@@ -27,6 +27,9 @@ MOST_STEPS = 1e9
 COARSEST = 0.1
 """Tolerance of many rates up to which the turbine's contact was found, at 0.3 its shaft was thrown out."""
 
+FASTEST, WIDEST = 5.0, 10.0
+"""Times the rated speed, times the largest clearance: beyond that a value is in another unit."""
+
 _BYTES_AT_BEARING = 8 * 31
 _BYTES_AT_NODE = 4 * 4
 """Of one sample of the record, see `orchestrator.observers.recorder`."""
@@ -154,6 +157,23 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
             f"end = {scenario.end!r}; its record takes {size / 1e9:.3g} GB, and this machine has "
             f"{memory / 1e9:.3g}; allowed is an earlier end, or a record.interval from {interval:.2g} s on",
         )
+
+
+def scale_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
+    """Yield speeds and lengths far beyond the train's own, which no run would come to: in rev/min or um."""
+    fastest = FASTEST * train.speed
+    widest = WIDEST * max((seat.clearance for seat in train.bearings if seat.has_film), default=math.inf)
+    speed = f"allowed is at most {FASTEST:g} times the train's, {fastest:.4g} rad/s; did you give rev/min?"
+    length = f"allowed is at most {WIDEST:g} times the largest clearance, {widest:.3g} m; did you give um?"
+    limits = {"speed": (fastest, speed), "vibration": (widest, length), "least_gap": (widest, length)}
+    course = scenario.rotation.course if scenario.rotation is not None else None
+    if course and (top := max(value for _, value in course)) > fastest:
+        yield ("rotation", "course"), f"rotation.course: {top!r}; {speed}"
+    for index, event in enumerate(scenario.events):
+        for key, (most, words) in limits.items():
+            value = getattr(event, key, None)
+            if value is not None and value > most:
+                yield ("events", index, key), f"events.{index}.{key} = {value!r}; {words}"
 
 
 def event_problems(scenario: Scenario) -> Iterator[Problem]:

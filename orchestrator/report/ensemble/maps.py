@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from orchestrator.report.ensemble.source import Array, levels, parameters, shown, title_of
+from orchestrator.report.ensemble.source import FINISHED, Array, levels, parameters, shown, title_of
 from orchestrator.report.panels.panel import CONTACT, INK, Panel, Trace, axis, layout
 
 _MOST = 6
@@ -45,13 +45,13 @@ def maps(data: xr.Dataset) -> Iterator[Panel]:
 def _traces(data: xr.Dataset, names: tuple[str, str], values: Array) -> list[Trace]:
     x, y = (np.asarray(data[name].values, dtype=float) for name in names)
     xs, ys = np.unique(x), np.unique(y)
+    known = np.isfinite(values) & (levels(data)[0].outcomes == FINISHED)
     cells = {(a, b) for a, b in zip(x, y, strict=True)}
     if xs.size * ys.size * _FILLED <= len(cells) and len(cells) < x.size:
-        mean = [[_mean(values[(x == a) & (y == b)]) for a in xs] for b in ys]
+        mean = [[_mean(values[known & (x == a) & (y == b)]) for a in xs] for b in ys]
         shape = {"x": xs.tolist(), "y": ys.tolist(), "z": mean}
         return [{"type": "heatmap", "coloraxis": "coloraxis", **shape}]
     contact = levels(data)[0].contact == 1.0
-    known = np.isfinite(values)
     found: list[Trace] = []
     for inside, edge, size in ((known & ~contact, "#FFFFFF", 9), (known & contact, CONTACT, 10)):
         if inside.any():

@@ -86,6 +86,14 @@ def test_maps_and_bars_show_what_matters():
     assert share.traces[0]["x"][0] > 0.9
 
 
+def test_a_run_that_did_not_finish_is_a_cross_on_the_map():
+    data = study()
+    data["outcome"].values[5, 0] = "unresolved"
+    (panel,) = maps(data.assign_coords(phase=("sample", np.linspace(0.1, 1.0, 40), {"units": "rad"})))
+    (cross,) = [trace for trace in panel.traces if trace["marker"].get("symbol") == "x"]
+    assert cross["x"] == [1.0] and cross["y"] == [pytest.approx(0.1 + 5 * 0.9 / 39)]
+
+
 def test_the_page_links_the_worst_runs_and_says_what_failed(tmp_path, monkeypatch):
     monkeypatch.setattr(document, "require_library", lambda: lambda: "library")
     (tmp_path / "worst" / "00038-v1").mkdir(parents=True)

@@ -1,5 +1,7 @@
 """Windows and statistics of records with known answers."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -195,3 +197,16 @@ def test_defect_statistics():
     assert found.bearing == "LP2-front"
     assert float(record["defect_max"].sel(bearing="LP2-front", time=found.time)) == found.largest
     assert statistics.defect_statistics(record.drop_vars("defect_max")) is None
+
+
+def test_records_rarer_than_windows_and_events():
+    record = synthetic_record.record()
+    rare = record.isel(time=[0, 700, 2000])  # at 0, 0.7 and 2 s; the event comes at 1 s
+    before, after = windows.phases(rare)
+    assert before.mean.mask(rare["time"].values).any() and after.mean.mask(rare["time"].values).any()
+    first = json.loads(record.attrs["events"])[0]
+    two = rare.assign_attrs(events=json.dumps([first, {**first, "time": 1.2}]))
+    _, last = windows.phases(two)
+    assert last.name == "after 2" and "no instant was recorded in after 1" in last.note
+    found = statistics.bearing_statistics(two, "LP2-front", before, contact_from=np.inf)
+    assert np.isfinite(found.force_max)
