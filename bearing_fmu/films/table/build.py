@@ -97,9 +97,18 @@ class _Solved:
 
 
 def build(unit: BearingParameters, radii: int = 0, angles: int = 0) -> Built:
-    """Build the table of a `unit_bearing`, by default of its `SIZES`; half a turn, the rest is its image."""
+    """Build the table of a `unit_bearing`, by default of its `SIZES`; half a turn, the rest is its image.
+
+    Raises
+    ------
+    ValueError
+        For an odd number of angles: each needs its image, and the angle across, to which lines through the
+        middle of the disc go on.
+    """
     _, *size = SIZES[unit.boundary]
     radii, angles = radii or size[0], angles or size[1]
+    if angles % 2:
+        raise ValueError(f"{angles} angles; allowed is an even number")
     sigma, ratio = unit.roughness, (unit.width / unit.diameter) ** 2
     most = 1.0 + _PRESSED * sigma if sigma > 0.0 else 1.0 - _LEAST
     last = narrowing(most, sigma)[1]

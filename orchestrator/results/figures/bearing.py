@@ -5,13 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.patches import Rectangle
 
+from fmus.port.arc import TURN
 from orchestrator.results.figures import style
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from fmus.port.arc import Bore
 
 _CURVES = (
     ("sommerfeld", 1.0, "Sommerfeld number [1]", True),
@@ -23,6 +27,10 @@ _CURVES = (
 )
 _ENTRIES = (("Fx", "x", "-"), ("Fx", "y", "--"), ("Fy", "x", ":"), ("Fy", "y", "-."))
 _WIDEST = 3.4
+_MARK = "#D9D9D9"
+"""Of what belongs to the bore, on the dark ground of no pressure."""
+MARGIN = 1e-6
+"""In degrees, up to which two arcs meet."""
 
 
 def _lines(data: xr.Dataset) -> list[tuple[str, str, float]]:
@@ -125,8 +133,8 @@ def _entries(axes: Axes, data: xr.Dataset, name: str, over: str, scale: np.ndarr
     axes.legend(frameon=False, fontsize=style.FONT - 1, ncols=4, loc="upper center")
 
 
-def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray) -> Figure:
-    """The film unrolled: pressure over angle and width, of a mass-conserving film its content, too."""
+def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray, bore: Bore = ()) -> Figure:
+    """The film unrolled, with its bore: pressure over angle and width, and what fills films with cavities."""
     both = "content" in pressure
     figure = style.new_figure(
         11.0, 8.0 if both else 4.6, "Pressure over the film, as V1 solves it, under the load", title
@@ -135,15 +143,39 @@ def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray) -> Figur
     values = 1e-6 * pressure["pressure"].values
     top = max(float(values.max()), 1e-9)
     _unroll(panels[0], pressure, values, top, "pressure [MPa]", "viridis")
-    panels[0].set_title("dotted: direction of the load", fontsize=style.FONT, loc="left")
     if both:
         text = "share of the gap that oil fills [1]"
         _unroll(panels[1], pressure, np.clip(pressure["content"].values, 0.0, 1.0), 1.0, text, "cividis")
     for axes in panels:
         direction = np.degrees(np.arctan2(load[1], load[0]))
         axes.axvline(direction, color=style.EVENT, linewidth=1.2, linestyle=":")
+        kinds = _mark_bore(axes, bore)
+    panels[0].set_title("; ".join(["dotted: direction of the load", *kinds]), fontsize=style.FONT, loc="left")
     panels[-1].set_xlabel("angle from x (sideways) to y (up) [deg]")
     return figure
+
+
+def _mark_bore(axes: Axes, bore: Bore) -> list[str]:
+    """Mark ends of arcs, grooves between them and pockets on them; returns what the marks mean."""
+    low, high = axes.get_ylim()
+    found = {}
+    for arc, after in zip(bore, (*bore[1:], *bore[:1]), strict=True):
+        start, end = np.degrees(arc.start), np.degrees(arc.end)
+        free = np.degrees((after.start - arc.end) % TURN)
+        for turn in (-720.0, -360.0, 0.0, 360.0):  # whichever of them lies in the figure
+            if arc.share > 0.0:
+                found["pocket"] = "framed: pockets"
+                place, height = 0.5 * (low + high), arc.share * (high - low)
+                frame = (start + turn, place - 0.5 * height), end - start, height
+                axes.add_patch(Rectangle(*frame, fill=False, edgecolor=_MARK, linewidth=1.2))
+            if MARGIN < free < 360.0 - MARGIN:
+                found["groove"] = "hatched: grooves"
+                span = end + turn, end + free + turn
+                axes.axvspan(*span, facecolor="none", edgecolor=_MARK, hatch="////", linewidth=0.8)
+            elif len(bore) > 1:
+                found["end"] = "dashed: ends of arcs"
+                axes.axvline(end + turn, color=_MARK, linewidth=0.9, linestyle="--")
+    return list(found.values())
 
 
 def _unroll(axes: Axes, data: xr.Dataset, values: np.ndarray, top: float, label: str, colours: str) -> None:

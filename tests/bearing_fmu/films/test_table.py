@@ -132,6 +132,12 @@ def test_tangent_is_exact():
                 )
 
 
+def test_an_odd_number_of_angles_is_refused():
+    """Lines through the middle of the disc would have nothing across to go on to."""
+    with pytest.raises(ValueError, match="95 angles; allowed is an even number"):
+        build(unit_bearing(TURBINE), 80, 95)
+
+
 def test_turned_and_mirrored_journals():
     film, turn = make_film("table", TURBINE), np.array([[0.0, -1.0], [1.0, 0.0]])
     for q, v in journals(10):

@@ -10,9 +10,11 @@ import pytest
 import xarray as xr
 from rich.console import Console
 
+from fmus.port.bore import grooved, lobes, pocketed
 from orchestrator.commands.bearing import run
 from orchestrator.errors import OrchestratorError
 from orchestrator.linear.case import LinearRequest
+from orchestrator.results.figures.bearing import pressure_figure
 from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
@@ -78,6 +80,24 @@ def test_no_bearing(tmp_path):
     with pytest.raises(OrchestratorError, match="v3: bearing parameter bore: the short film"):
         investigate(LEMON, tmp_path / "out", depths=("v3",))
     assert not (tmp_path / "out").exists()
+
+
+def test_the_pressure_map_shows_the_bore():
+    """A groove across the angle at which the map ends, a pocket of half the width, two arcs that meet."""
+    z, angle = np.linspace(-0.05, 0.05, 5), np.arange(-180.0, 180.0, 10.0)
+    film = xr.Dataset({"pressure": (("angle", "z"), np.ones((angle.size, z.size)))}, {"angle": angle, "z": z})
+    cut = grooved(lobes(2, 0.3), [(np.pi, np.radians(20.0))])
+    bore = pocketed(cut, [(np.radians(90.0), np.radians(60.0), 0.5, 1.0, False)])
+    axes = pressure_figure(film, "bearing", np.array([0.0, -1.0]), bore).axes[0]
+    words = "dotted: direction of the load", "framed: pockets", "hatched: grooves", "dashed: ends of arcs"
+    assert set(axes.get_title(loc="left").split("; ")) == set(words)
+    frames = [patch.get_bbox().extents for patch in axes.patches if patch.get_hatch() is None]
+    assert any(np.allclose(frame, (60.0, -25.0, 120.0, 25.0)) for frame in frames)
+    grooves = [patch.get_bbox().intervalx for patch in axes.patches if patch.get_hatch()]
+    assert any(np.allclose(span, (170.0, 190.0)) for span in grooves)
+    assert any(np.allclose(span, (-190.0, -170.0)) for span in grooves)
+    plain = pressure_figure(film, "bearing", np.array([0.0, -1.0])).axes[0]
+    assert plain.get_title(loc="left") == words[0] and not plain.patches
 
 
 @pytest.mark.no_cover  # lines that other tests run
