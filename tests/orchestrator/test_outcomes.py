@@ -24,6 +24,8 @@ from tests.orchestrator.oscillator import released
 from tests.orchestrator.results import synthetic_record
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 STATE = r"last state of {}: eccentricity ratio [\d.e-]+, tilts \S+ and \S+ urad, least gap \S+ um"
 
 
@@ -167,7 +169,6 @@ def test_a_rotor_that_fails_shows_the_bearing_farthest_out(store, toy_fmus):
     system.close()
 
 
-@pytest.mark.no_cover  # lines that other tests run
 @pytest.mark.parametrize("outcome", [outcome for outcome in Outcome if not outcome.ok])
 @fault(
     "process",

@@ -12,6 +12,8 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
 from orchestrator.report import document
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 PAGE = Path(bladeloss.__file__).parents[1] / "README.md"
 SHORT = {"depth": "v3", "end": 0.01, "event": None}
 
@@ -23,7 +25,6 @@ def elsewhere(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_the_examples_of_the_page_run_in_their_order(monkeypatch, capsys, once, elsewhere):
     """With FMUs from a folder of the tests, and 0.16 s in place of 0.2."""
     pytest.importorskip("plotly")

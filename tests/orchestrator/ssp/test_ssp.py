@@ -18,6 +18,8 @@ from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
 from tests.marks import slow
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 SHORT = {"end": 0.012, "event": {"time": 0.00613}, "depth": "v3", "depth_at": {"rear": "v2"}}
 
 
@@ -55,7 +57,6 @@ def edited(source, target, changes):
     return target
 
 
-@pytest.mark.no_cover  # lines that the tests of each part run
 @pytest.mark.parametrize(
     "settings",
     [

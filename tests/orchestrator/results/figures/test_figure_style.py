@@ -10,6 +10,8 @@ from orchestrator.results.figures.write import write_figures
 from orchestrator.results.verdicts.judge import worst_bearing
 from tests.faults import fault
 
+pytestmark = pytest.mark.no_cover  # lines that other tests run
+
 BEARING = "LP2-front"
 
 
@@ -38,7 +40,6 @@ def test_the_worst_bearing_is_shown_unless_one_is_named(record):
     "the figures are drawn as ever",
     guard="orchestrator.results.figures.write:own_settings",
 )
-@pytest.mark.no_cover  # figures that other tests draw
 def test_writing_gives_every_figure_in_every_format(record, train, tmp_path):
     short = record.isel(time=slice(900, 1100))
     with rc_context({"text.usetex": True, "font.family": "nonsense"}):
