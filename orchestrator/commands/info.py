@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 from rich.console import Console
 from rich.table import Table
 
@@ -9,6 +11,7 @@ from orchestrator.results.quantities import HERTZ
 from orchestrator.scenario.file import bundled_scenarios, load_scenario, read_train
 from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.train.file import bundled_trains, derived_trains, load_train
+from rotor_fmu.train.seat import BearingSeat
 from rotor_fmu.train.train import Coupling, Shoulder, Train
 
 
@@ -53,7 +56,8 @@ def show_train(source: str, console: Console) -> None:
         f"{train.speed / HERTZ:g} Hz ({60.0 * train.speed / HERTZ:.6g} rev/min), gravity ({gravity}) m/s2",
         highlight=False,
     )
-    console.print(_seats(train), _bodies(train), _shaft(train), sep="\n")
+    tables = [_seats(train), _films(train), _bodies(train), _shaft(train)]
+    console.print(*(table for table in tables if table.row_count), sep="\n")
 
 
 def _seats(train: Train) -> Table:
@@ -71,6 +75,43 @@ def _seats(train: Train) -> Table:
             seat.name, _mm(train.z[seat.node]), diameter if seat.has_film else "", height, f"{load:.4g}{held}"
         )
     return table
+
+
+def _films(train: Train) -> Table:
+    """What films know of the bearings that have one, in the units of a drawing."""
+    table = Table(title="Films, and what the bearings stand on", title_justify="left")
+    for name in ("bearing", "bore", "width\nmm", "clearance\nµm", "oil", "pedestal x, y\nkN/mm"):
+        table.add_column(name, justify="right" if name.endswith("m") else "left")
+    if any(seat.has_film and seat.oil for seat in train.bearings):
+        table.caption = (
+            "Of an oil that finds its temperature: viscosity at 40 °C, and how warm it is supplied."
+        )
+    for seat in train.bearings:
+        if seat.has_film:
+            table.add_row(
+                seat.name, _bore(seat), _mm(seat.width), f"{1e6 * seat.clearance:g}", _oil(seat), _stand(seat)
+            )
+    return table
+
+
+def _bore(seat: BearingSeat) -> str:
+    arcs = json.loads(seat.bore) if seat.has_grooves else []
+    pads = sum(len(arc) > 4 and arc[4] is not None for arc in arcs)
+    words = f"{pads} pads" if pads else f"{len(arcs)} arcs" if arcs else "plain"
+    layer = f", layer {_mm(seat.layer_thickness)} mm" if seat.layer_thickness > 0.0 else ""
+    return words + layer
+
+
+def _oil(seat: BearingSeat) -> str:
+    if seat.oil is None:
+        return f"{1e3 * seat.viscosity:g} mPa s"
+    return f"{1e6 * seat.viscosity_40:.4g} mm2/s, {seat.supply_temperature - 273.15:.4g} °C"
+
+
+def _stand(seat: BearingSeat) -> str:
+    if seat.pedestal is None:
+        return ""
+    return ", ".join(f"{1e-6 * spring:g}" for spring in seat.pedestal.stiffness)
 
 
 def _bodies(train: Train) -> Table:

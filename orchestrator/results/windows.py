@@ -171,12 +171,13 @@ def phases(record: xr.Dataset) -> tuple[Phase, ...]:
 
 def _seen(phase: Phase, time: NDArray[np.float64]) -> Phase:
     """The phase, its windows begun earlier where records are so rare that none would lie in them."""
-    windows = {}
-    for name in ("mean", "peak"):
-        window: Window = getattr(phase, name)
-        if not window.mask(time).any():
-            windows[name] = Window(float(time[time <= window.end + _TOLERANCE][-1]), window.end)
-    return replace(phase, **windows) if windows else phase
+
+    def reaching(window: Window) -> Window:
+        if window.mask(time).any():
+            return window
+        return Window(float(time[time <= window.end + _TOLERANCE][-1]), window.end)
+
+    return replace(phase, mean=reaching(phase.mean), peak=reaching(phase.peak))
 
 
 def _undisturbed(schedule: Schedule, first: float, end: float, *, recorded_on: bool) -> Phase:

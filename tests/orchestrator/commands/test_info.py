@@ -31,7 +31,10 @@ def test_the_example_as_it_was_read():
         "mass, 14 kg, polar 0.09, transverse 0.06 kg m2",
     ):
         assert words in text
-    (row,) = [line for line in text.splitlines() if "compressor-rear" in line]
+    row, film = [line for line in text.splitlines() if "compressor-rear" in line]
+    assert [cell.strip() for cell in film.strip("│ ").split("│")] == [
+        "compressor-rear", "plain", "60", "65", "20 mPa s",
+    ]  # fmt: skip
     assert [cell.strip() for cell in row.strip("│ ").split("│")] == [
         "compressor-rear",
         "1890",
@@ -39,6 +42,13 @@ def test_the_example_as_it_was_read():
         "",
         "943.7",
     ]
+
+
+def test_films_are_shown_as_they_were_understood():
+    oil, pads, fan = (shown(EXAMPLE.parent / name) for name in ("oil", "tilting", "fan"))
+    assert "46 mm2/s, 45 °C" in oil
+    assert "4 pads" in pads and "130" in pads
+    assert "60, 120" in fan
 
 
 def test_a_train_that_holds_its_shaft_down(tmp_path):
