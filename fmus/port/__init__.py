@@ -21,6 +21,7 @@ over the next step, an extrapolation in time.
 
 from __future__ import annotations
 
+from fmus.port.arc import Bore
 from fmus.port.balance import ENERGY, VIBRATION, WORK
 from fmus.port.bearing import (
     BEARING,
@@ -35,6 +36,7 @@ from fmus.port.bearing import (
     default_of,
     default_word,
 )
+from fmus.port.bore import from_text as bore_in
 from fmus.port.bore import pads_in, room_in
 from fmus.port.connector import (
     F0,
@@ -125,6 +127,7 @@ __all__ = [
     "WHIRL",
     "WORK",
     "WRENCH",
+    "Bore",
     "C",
     "Causality",
     "Failure",
@@ -137,6 +140,7 @@ __all__ = [
     "Variable",
     "at_bearing",
     "bearing_parameter",
+    "bore_in",
     "coefficient_rows",
     "coefficient_text",
     "coefficient_values",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from rich.table import Table
 
-from fmus.port.bore import from_text
+from fmus import port
 from orchestrator.errors import OrchestratorError
 from orchestrator.fmi.blas import one_blas_thread
 from orchestrator.linear.bearing import BearingStudy, film_depths, study_bearing
@@ -78,7 +78,7 @@ def run(
     }
     data = [found.curves, found.over_speed]
     if found.pressure is not None:
-        figures["pressure"] = pressure_figure(found.pressure, title, force, from_text(str(values["bore"])))
+        figures["pressure"] = pressure_figure(found.pressure, title, force, port.bore_in(str(values["bore"])))
         data.append(found.pressure)
     data = [one.assign_attrs(title=title) for one in data]
     refused = "".join(f"{depth} left out: {reason}\n" for depth, reason in found.refused.items())

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from fmus.port.arc import TURN
 from orchestrator.results.figures import style
 
 if TYPE_CHECKING:
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from fmus.port.arc import Bore
+    from fmus.port import Bore
 
 _CURVES = (
     ("sommerfeld", 1.0, "Sommerfeld number [1]", True),
@@ -161,7 +160,7 @@ def _mark_bore(axes: Axes, bore: Bore) -> list[str]:
     found = {}
     for arc, after in zip(bore, (*bore[1:], *bore[:1]), strict=True):
         start, end = np.degrees(arc.start), np.degrees(arc.end)
-        free = np.degrees((after.start - arc.end) % TURN)
+        free = np.degrees((after.start - arc.end) % (2.0 * np.pi))
         for turn in (-720.0, -360.0, 0.0, 360.0):  # whichever of them lies in the figure
             if arc.share > 0.0:
                 found["pocket"] = "framed: pockets"
