@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import LogFormatter
 
 from orchestrator.results.figures import style
 
@@ -98,6 +99,9 @@ def coefficients_figure(curves: xr.Dataset, over_speed: xr.Dataset, title: str, 
         panels[0, 2].loglog(so, shown, color=colour, linewidth=width, label=style.depth_name(depth))
         line = over_speed.sel(depth=depth)
         panels[1, 2].plot(line["rotation"].values, 1e6 * line["h_min"].values, color=colour, linewidth=width)
+    for formatter in (panels[0, 2].yaxis.set_major_formatter, panels[0, 2].yaxis.set_minor_formatter):
+        formatter(LogFormatter(minor_thresholds=(1.0, 0.5)))  # 3 and 6, not powers of ten
+    panels[0, 2].tick_params(axis="y", which="both", labelsize=style.FONT - 1)
     panels[0, 2].set_ylabel("threshold of a rigid rotor, ω √(C/g) [1]")
     bounded = bool(np.isfinite(curves["threshold"].values).any())
     words = "stable below; above the last point stable at any speed" if bounded else "stable at any speed"
@@ -129,7 +133,11 @@ def _entries(axes: Axes, data: xr.Dataset, name: str, over: str, scale: np.ndarr
         axes.set_yscale("symlog", linthresh=1.0)
     for wrench, move, dashes in _ENTRIES:
         axes.plot([], [], color="#444444", linestyle=dashes, label=f"{wrench[1]}{move}")
-    axes.legend(frameon=False, fontsize=style.FONT - 1, ncols=4, loc="upper center")
+    # over the panel: in it there are lines everywhere
+    axes.legend(
+        frameon=False, fontsize=style.FONT - 1, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0),
+        borderaxespad=0.1,
+    )  # fmt: skip
 
 
 def pressure_figure(pressure: xr.Dataset, title: str, load: np.ndarray, bore: Bore = ()) -> Figure:

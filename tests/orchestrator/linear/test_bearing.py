@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from rich.console import Console
 
 from fmus.port.bore import grooved, lobes, pocketed
 from orchestrator.commands.bearing import run
 from orchestrator.errors import OrchestratorError
 from orchestrator.linear.case import LinearRequest
-from orchestrator.results.figures.bearing import pressure_figure
+from orchestrator.results.figures.bearing import coefficients_figure, pressure_figure
 from rotor_fmu.linear.analysis import target_loads
 from rotor_fmu.train.file import load_train
 from tests.faults import fault
@@ -51,6 +52,20 @@ def test_every_depth_of_a_bearing_side_by_side(tmp_path):
     assert float(rated["sommerfeld"]) == pytest.approx(train.bearings[0].sommerfeld(load, train.speed))
     text = (folder / "bearing.txt").read_text()
     assert "front of small" in text and "Kxx [GN/m]" in text
+
+
+def test_the_legend_of_coefficients_lies_over_no_line(tmp_path):
+    folder = tmp_path / "out"
+    assert investigate("small", folder, depths=("v3",)) == 0
+    curves, running = (xr.load_dataset(folder / f"{name}.nc") for name in ("bearing", "over-speed"))
+    figure = coefficients_figure(curves, running, "small", 1.0)
+    FigureCanvasAgg(figure).draw()
+    for axes in (axes for axes in figure.axes if axes.get_legend() is not None):
+        legend = axes.get_legend().get_window_extent()
+        assert legend.y0 >= axes.get_window_extent().y1 - 1.0
+    threshold = figure.axes[2].yaxis
+    words = [text.get_text() for text in (*threshold.get_majorticklabels(), *threshold.get_minorticklabels())]
+    assert any(words) and not any("10^" in word for word in words)
 
 
 def test_a_terminal_of_eighty_columns_cuts_no_figure_off(tmp_path):
