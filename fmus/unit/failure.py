@@ -31,6 +31,10 @@ class Problem(NamedTuple):
     reason: str = ""
 
 
+NONE = Problem()
+"""No problem: what each step comes to, so that it is not made each time."""
+
+
 def attempt(default: Failure, action: Callable[..., None], *arguments: Any) -> Problem:
     """Run `action`; return what went wrong, with the code `default` where the error names none."""
     try:
@@ -40,4 +44,4 @@ def attempt(default: Failure, action: Callable[..., None], *arguments: Any) -> P
         return Problem(code, str(error) or type(error).__name__)
     except Exception as error:  # any: pythonfmu would make fmi2Fatal of it
         return Problem(default, f"{type(error).__name__}: {error}")
-    return Problem()
+    return NONE

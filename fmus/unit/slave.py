@@ -29,7 +29,7 @@ from pythonfmu.enums import Fmi2Status
 
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.variable import Kind
-from fmus.unit.failure import Problem, UnitError, attempt
+from fmus.unit.failure import NONE, Problem, UnitError, attempt
 from fmus.unit.hooks import Hooks
 from fmus.unit.layout import Layout
 from fmus.unit.loader import Refusal, for_log
@@ -114,7 +114,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         if self._mode != STEP:
             text = "a step is due between the end of initialization and termination only"
             return Problem(Failure.CALL, text)
-        return Problem()
+        return NONE
 
     def _checked_step(self, time: float, step: float) -> None:
         if not (0.0 < step < math.inf and math.isfinite(time)):

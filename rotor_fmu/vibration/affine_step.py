@@ -142,8 +142,9 @@ class AffineStep:
         if nearer is None:
             end = maps.coast(motion, start, rotation)
         else:
-            end = maps.coast(motion, start - nearer * start, rotation)
-            maps.add_end(nearer * start, end)
+            later = nearer * start
+            end = maps.coast(motion, start - later, rotation)
+            maps.add_end(later, end)
         if kick is not None:
             end += kick
         journals = journal_motion(coordinates, end, static)
@@ -159,8 +160,9 @@ class AffineStep:
         if nearer is None:
             maps.add_end(wrench, end)
         else:
-            maps.add_start(nearer * wrench, end)
-            maps.add_end(wrench - nearer * wrench, end)
+            sooner = nearer * wrench
+            maps.add_start(sooner, end)
+            maps.add_end(wrench - sooner, end)
         if not solved or not np.isfinite(np.dot(end, end)):
             raise NoFiniteResult(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
