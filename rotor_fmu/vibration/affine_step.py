@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
-from rotor_fmu.vibration.law_loops import end_wrenches, react
+from rotor_fmu.vibration.law_loops import end_wrenches, half_shares, react
 from rotor_fmu.vibration.trail import Extrapolation, Trail
 
 Array = NDArray[np.float64]
@@ -171,10 +171,8 @@ class AffineStep:
 
     def _share(self, compliance: Compliance) -> Array | None:
         """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
-        numbers = compliance.stiffness_numbers(self._law)
-        if numbers is None or not numbers.max(initial=0.0) > 1.0:
-            return None
-        return np.repeat(0.5 - 0.5 / np.maximum(numbers, 1.0), 4)
+        nearer = np.empty(len(self._nothing))
+        return nearer if half_shares(self._law, compliance.own, compliance.mixed, nearer) else None
 
     def _reacting(self, offset: Array, journals: Array) -> Array:
         """Wrenches under the law: an offset less what stiffness and damping take off it."""

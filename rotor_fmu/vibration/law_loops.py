@@ -73,6 +73,19 @@ def stiffness_numbers(law: Array, own: Array, mixed: Array, numbers: Array) -> b
 
 
 @fused
+def half_shares(law: Array, own: Array, mixed: Array, nearer: Array) -> bool:
+    """Overwrite half of the shares of the mean, (4 n,), that stiffness asks for; False if all are 0."""
+    numbers = np.zeros(len(law))
+    if not stiffness_numbers(law, own, mixed, numbers):
+        return False
+    mixes = False
+    for b in range(len(law)):
+        mixes |= numbers[b] > 1.0
+        nearer[4 * b : 4 * b + 4] = 0.5 - 0.5 / max(numbers[b], 1.0)
+    return mixes
+
+
+@fused
 def react(law: Array, offset: Array, journals: Array, wrench: Array) -> None:
     """Overwrite wrenches with an offset less what laws make of the journals' motion."""
     _react(law, offset, journals, wrench)
@@ -113,14 +126,17 @@ def end_wrenches(
     """
     size = len(offset)
     _react(law, offset, journals, wrench)
+    moved = np.empty(size)
     for b in range(len(law)):
         matrix[4 * b : 4 * b + 4] = 0.0
         for j in range(8):
             start, end = of_start[b, j], of_end[b, j]
+            for c in range(size):
+                moved[c] = end[c] + nearer[c] * (start[c] - end[c])
             for i in range(4):
                 factor, row = law[b, i, j], matrix[4 * b + i]
                 for c in range(size):
-                    row[c] += factor * (end[c] + nearer[c] * (start[c] - end[c]))
+                    row[c] += factor * moved[c]
         for i in range(4 * b, 4 * b + 4):
             matrix[i, i] += 1.0
     return _solved(matrix, wrench)

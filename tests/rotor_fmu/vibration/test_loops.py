@@ -62,6 +62,14 @@ def test_stiffness_numbers(rng, loop):
     assert find(law, own, mixed, numbers)
     np.testing.assert_allclose(numbers, [6.0, 24.0])
     assert not find(1e-2 * law, own, mixed, numbers)
+    shares, half = np.full(8, np.nan), loop(law_loops, "half_shares")
+    assert half(law, own, mixed, shares)
+    np.testing.assert_allclose(shares, np.repeat(0.5 - 0.5 / np.array([6.0, 24.0]), 4))
+    assert half(0.1 * law, own, mixed, shares)  # 0.6 and 2.4
+    np.testing.assert_allclose(shares, np.repeat([0.0, 0.5 - 0.5 / 2.4], 4))
+    law[1] *= 0.1
+    assert not half(0.15 * law, own, mixed, shares)  # 0.9 and 0.36
+    assert not half(1e-2 * law, own, mixed, shares)
 
 
 @pytest.mark.parametrize("slow", [0, 2, 5])
