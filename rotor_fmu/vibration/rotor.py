@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotor_fmu.reduction.reduce import Method
 from rotor_fmu.train.train import Train
+from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
 from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
 from rotor_fmu.vibration.drive import NOTHING, Braking
@@ -70,6 +71,8 @@ class Rotor(RotorMotion):
         track_work: bool = False,
     ) -> None:
         super().__init__(shaft, unbalance, gravity=gravity, speed=speed)
+        for loops in (law_loops, whirl_loops, field_loops):
+            loops.compile_now()  # here, for a step is expected to end soon
         self._stepper = AffineStep(self.shaft.bearings)
         self._spin = Spin(unbalance, inertia)
         self._ledger = WorkLedger(self.shaft, self._maps.work, unbalance) if track_work else None

@@ -79,3 +79,10 @@ def coast(
         g, h = growth[2 * (r - slow)], growth[2 * (r - slow) + 1]
         after[2 * r] += g * before[2 * r] - h * before[2 * r + 1]
         after[2 * r + 1] += g * before[2 * r + 1] + h * before[2 * r]
+
+
+def compile_now() -> None:
+    """Compile, or fetch what is kept, so that no step has to wait for it."""
+    matrix, pair = np.zeros((2, 1, 1)), np.zeros(2)
+    add_product(matrix, pair, np.zeros(2))
+    coast(matrix, np.zeros(0), np.zeros((2, 2, 1)), pair, np.zeros(1), pair, np.zeros(2))

@@ -13,6 +13,7 @@ from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.export import export
 from rotor_fmu.train.file import load_train
+from rotor_fmu.vibration.rotor import Rotor
 from tests.bearing_fmu.bearings import SPEED, TURBINE
 
 UNITS = Path(__file__).parent / "units"
@@ -48,9 +49,10 @@ def store():
 
 @pytest.fixture(scope="session")
 def small_fmus(once):
-    """FMUs of the small train with short bearings, whose kernel is compiled: no budget of a step need do."""
+    """FMUs of the small train with short bearings, all compiled: no budget of a step need do."""
     fmus = once("small", lambda folder: build(folder, [load_train("small")], names=("v3",)))
     make_film("v3", TURBINE).respond([0.0] * 4, [0.0] * 4, SPEED)
+    Rotor.of_train(load_train("small"))
     return fmus
 
 

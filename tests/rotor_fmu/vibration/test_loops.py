@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
+from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
+from rotor_fmu.vibration.rotor import Rotor
+from rotor_fmu.vibration.state import RotorState
 
 N = 3
 LOADS = 4 * N
@@ -107,3 +110,27 @@ def test_fields_and_where_they_are_largest(rng, loop):
     ]  # fmt: skip
     np.testing.assert_allclose(fields, expected, rtol=1e-12)
     assert found == (np.argmax(expected[2]), np.argmax(expected[3]))
+
+
+def test_no_step_waits_for_the_compiler():
+    """A rotor's loops are there when it is: steps and records of any kind compile nothing."""
+    loops = [
+        getattr(module, name)
+        for module, names in (
+            (law_loops, ("react", "half_shares", "end_wrenches")),
+            (whirl_loops, ("coast", "add_product")),
+            (field_loops, ("fields_at",)),
+        )
+        for name in names
+    ]
+    rotor = Rotor.of_train(load_train("small"), fracture_time=1.5e-4, blade_unbalance=[0.1, 0.0, 0.0])
+    before = [len(loop.signatures) for loop in loops]
+    law = np.zeros((2, 4)), np.tile(1e8 * np.eye(4), (2, 1, 1)), np.tile(1e5 * np.eye(4), (2, 1, 1))
+    rotor.start_from_law(*law, orbit=True)
+    strided = [np.repeat(part[..., None], 2, axis=-1)[..., 0] for part in law]  # as views of an FMU's inputs
+    for k in range(3):
+        rotor.step(k * 1e-4, 1e-4, *strided, rotor.speed)
+        rotor.fields()
+    rotor.set_state(RotorState.from_bytes(rotor.get_state().to_bytes()))
+    rotor.step(3e-4, 1e-4, *strided, rotor.speed)
+    assert [len(loop.signatures) for loop in loops] == before
