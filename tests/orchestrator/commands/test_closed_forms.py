@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from orchestrator.cli.main import app
 from orchestrator.linear import case
+from rotor_fmu.linear.analysis import REACH
 from tests.published import published
 
 pytestmark = pytest.mark.no_cover  # lines that other tests run
@@ -179,5 +180,7 @@ def test_stability_sees_the_pedestals(commands):
     assert float(peaks["amplitude"][k]) == pytest.approx(height, rel=2e-5)
     found = commands("pedestals", "stability", "--to", str(TOP)).sel(rotation=30.0, method="nearest")
     exact = bounces()
+    exact = exact[exact.imag <= REACH * HERTZ * TOP]  # others are not among those that count at any speed
+    assert exact.size == 2
     for expected in np.sort(-exact.real / np.abs(exact))[:2]:
         assert np.abs(found["damping_ratio"].values / expected - 1.0).min() < 2e-5
