@@ -15,14 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearing_fmu import depths
 from bearing_fmu.film import Film
-from bearing_fmu.films.aligned.workspace import AlignedFilm
+from bearing_fmu.films.aligned.workspace import AlignedFilm, AlignedFilms
+from bearing_fmu.films.aligned.workspace import served as served_aligned
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.jfo.workspace import JfoFilm
 from bearing_fmu.films.short.short import effective_state
 from bearing_fmu.films.tilted.layered import CLUSTERING as ON_LAYER
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.on_layer import FilmOnLayer
-from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.films.tilted.workspace import TiltedFilm, TiltedFilms, served
 from bearing_fmu.films.turbulence import ALONG
 from bearing_fmu.kernels.axial import CLUSTERING, axial_basis
 from bearing_fmu.kernels.compiled import kernel
@@ -204,7 +205,11 @@ def _pressure(
     clustering = CLUSTERING
     if isinstance(film, LayeredFilm):
         gave_way = film.change[8] > 0.0
-        film, clustering = (film.film, ON_LAYER) if gave_way else (film.rigid, CLUSTERING)
+        film, clustering = (film.film, ON_LAYER) if gave_way else (served(film.rigid), CLUSTERING)
+    if isinstance(film, TiltedFilms):
+        film = served(film)
+    if isinstance(film, AlignedFilms):
+        film = served_aligned(film)
     if isinstance(film, TiltedFilm):
         n, m = film.face.shape[1], film.circle.shape[2]
         return _between(film.rings[0], film.pressures[0, :n, :m], angle, z, clustering)

@@ -6,8 +6,9 @@ With H = 1 - x cos(phi) - y sin(phi) the pressure is driven by ::
 
 and is positive, by and large, where this is.  The grid is graded to the narrow gap; where (u, w) points away
 from it, the journal *leaves* the wall, and what is positive lies in the wide gap.  Under tilt (u, w) changes
-over z; where it *turns round* between the ends, the positive part ends along lines of constant z.  Both
-shares go smoothly from 0 to 1 with the state, so that the wrench does, and their change is in its tangent.
+over z; where it *turns round* between the ends, the positive part ends along lines of constant z.  Where the
+gap opens steeply from a narrow end, the pressure *crowds* there, which its largest value alone suffers from.
+The shares go smoothly from 0 to 1 with the state, so that the wrench does, and their change is in its tangent.
 """
 
 from __future__ import annotations
@@ -20,12 +21,22 @@ from bearing_fmu.result import DAMPING, RESULTS, STIFFNESS
 
 Floats = NDArray[np.float64]
 
-#: Part of the usual grading with which a journal is followed that leaves the wall.
-SPREAD = 0.3
-# Where the shares begin and end: of the cosine between (u, w) and the way off the wall, and of the squared
-# eccentricity; of how much more of the drive is the tilt's, (tilt^2 - centre^2) / (tilt^2 + centre^2).
-_AWAY, _FAR = (0.35, 0.85), (0.25, 0.5)
+#: Part of the usual grading with which a journal is followed that leaves the wall; on a layer.
+SPREAD, LAYERED_SPREAD = 0.4, 0.3
+#: Where its share begins and ends, of the cosine between (u, w) and the way off the wall; on a layer, where
+#: the grid has no more columns than the usual one.
+AWAY, LAYERED_AWAY = (0.1, 0.4), (0.35, 0.85)
+#: Likewise, of that share: the largest pressure, which has no tangent, goes over sooner than the wrench.
+SOON = (0.0, 0.5)
+# Likewise, of the squared eccentricity; of how much more of the drive is the tilt's,
+# (tilt^2 - centre^2) / (tilt^2 + centre^2).
+_FAR = (0.25, 0.5)
 _TILTED = (0.65, 0.85)
+# Likewise, of the gap at the narrower end over its slope along the axis, within which the peak lies so close
+# to the end that few rows do not resolve it.
+_CROWDED = (0.2, 0.35)
+# Of the cosine, and what it takes off the grading of the grid on which that peak is looked for.
+_LEADS, _LESS = (0.05, 0.2), 0.2
 
 
 @inner_kernel
@@ -40,8 +51,11 @@ def rise(x: float, ends: tuple[float, float]) -> tuple[float, float]:
 
 
 @inner_kernel
-def leaving(q: Floats, v: Floats, speed: float, change: Floats) -> float:
-    """How far a journal leaves the wall, 0 to 1; its change by q (4) and v (4) where it is above 0."""
+def leaving(q: Floats, v: Floats, speed: float, ends: tuple[float, float], change: Floats) -> float:
+    """How far a journal leaves the wall, 0 to 1; its change by q (4) and v (4) where it is above 0.
+
+    It begins and ends at the `ends` of the cosine, see `AWAY`.
+    """
     along = 2.0 * (v[0] * q[0] + v[1] * q[1])
     square = q[0] * q[0] + q[1] * q[1]
     if along >= 0.0 or square <= _FAR[0]:
@@ -49,7 +63,7 @@ def leaving(q: Floats, v: Floats, speed: float, change: Floats) -> float:
     u, w = 2.0 * v[0] + speed * q[1], 2.0 * v[1] - speed * q[0]
     drive = u * u + w * w
     cosine = -along / np.sqrt(drive * square)
-    away, by_cosine = rise(cosine, _AWAY)
+    away, by_cosine = rise(cosine, ends)
     far, by_square = rise(square, _FAR)
     if away == 0.0:
         return 0.0
@@ -80,6 +94,23 @@ def turning_round(q: Floats, v: Floats, speed: float, change: Floats) -> float:
         change[4], change[5] = 2.0 * by_centre * u, 2.0 * by_centre * w
         change[6], change[7] = -2.0 * by_tilt * b, 2.0 * by_tilt * a
     return share
+
+
+@inner_kernel
+def crowded(q: Floats, v: Floats, speed: float) -> tuple[float, float]:
+    """How far the pressure crowds at the narrower end, 0 to 1, and the part of the grading that serves."""
+    end = 1.0 if (q[0] * q[3] - q[1] * q[2]) >= 0.0 else -1.0
+    x, y = q[0] + end * q[3], q[1] - end * q[2]
+    e = np.sqrt(x * x + y * y)
+    slope = end * (x * q[3] - y * q[2])
+    gap = max(1.0 - e, 0.0)
+    if slope <= 0.0 or gap * e >= _CROWDED[1] * slope:
+        return 0.0, 1.0
+    ux, uy = v[0] + end * v[3], v[1] - end * v[2]
+    u, w = 2.0 * ux + speed * y, 2.0 * uy - speed * x
+    drive = u * u + w * w
+    away = -2.0 * (ux * x + uy * y) / (np.sqrt(drive) * e) if drive > 0.0 else 0.0
+    return 1.0 - rise(gap * e / slope, _CROWDED)[0], 1.0 - _LESS * rise(away, _LEADS)[0]
 
 
 @inner_kernel

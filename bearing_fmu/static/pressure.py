@@ -12,7 +12,7 @@ from bearing_fmu.film import Film
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.depth import SOLVER
-from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.films.tilted.workspace import TiltedFilm, served
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
 from bearing_fmu.outputs import INPUTS, OUT_GAP, OUTPUTS
@@ -82,14 +82,14 @@ def pressure_map(
     inputs[:4], inputs[4:8], inputs[16] = q, v, speed
     try:
         if fed_at is not None:
-            work.held[:, fed_at] = 2.0
+            work.usual.held[:, fed_at] = 2.0
         status = film.solver.kernel(inputs, film.offset, np.zeros(OUTPUTS), *data)
         if status:
             raise film.failure(status, inputs, film.offset)
-        return _map_of(parameters, work, data[2])
+        return _map_of(parameters, served(work), data[2])
     finally:
         if fed_at is not None:
-            work.held[:, fed_at] = 0.0  # other films share the work space
+            work.usual.held[:, fed_at] = 0.0  # other films share the work space
         film.bring_back(space)
 
 
@@ -138,7 +138,7 @@ def _conserving(parameters: BearingParameters, q: Floats, v: Floats, speed: floa
 
 def _map_of(parameters: BearingParameters, work: TiltedFilm, bore: Bore) -> PressureMap:
     """What an evaluation has left in a work space."""
-    m, n = parameters.columns, parameters.rows
+    n, m = work.face.shape[1], work.circle.shape[2]
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
     pressure = np.zeros((m, n + 2))
     pressure[:, :n] = unit * work.pressures[0, :n, :m].T

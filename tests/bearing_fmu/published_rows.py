@@ -164,10 +164,10 @@ def butenschoen(row: Row) -> list[Entry]:
     p = plain(float(row["B_over_D"]), boundary="reynolds", columns=192, rows=12)
     film = make_film("v1", p)
     space, (_, _, _, work, _) = film.take()
-    work.held[:, work.held.shape[1] // 2] = 2.0
+    work.usual.held[:, work.usual.held.shape[1] // 2] = 2.0
     film.bring_back(space)
     found = respond(film, [float(row["eps"]), 0.0, 0.0, 0.0])
-    work.held[:] = 0.0
+    work.usual.held[:] = 0.0
     fx, fy = found.wrench[:2]
     here = {
         "So_ref": found.sommerfeld,

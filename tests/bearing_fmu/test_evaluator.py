@@ -173,7 +173,7 @@ def test_films_of_one_resolution_share_their_work_space_and_not_their_results():
     for other in others:
         taken, (_, _, _, work, _) = other.take()
         assert taken is space
-        work.held[:, 3] = 2.0
+        work.usual.held[:, 3] = 2.0
         other.bring_back(taken)
         for q in ((0.1, -0.7, 0.1, 0.05), (0, 5, 0, 0), (np.nan, 0, 0, 0)):
             other.solve(port_inputs(q), offset, out)
@@ -185,8 +185,8 @@ def test_no_two_evaluations_use_one_work_space():
     one, other = make_film("v1", TURBINE), make_film("v1", TURBINE)
     first, (_, _, _, mine, _) = one.take()
     second, (_, _, _, theirs, _) = other.take()
-    assert not np.shares_memory(mine.blocks, theirs.blocks)
-    assert not np.shares_memory(mine.pressures, theirs.pressures)
+    assert not np.shares_memory(mine.usual.blocks, theirs.usual.blocks)
+    assert not np.shares_memory(mine.usual.pressures, theirs.usual.pressures)
     one.bring_back(first)
     other.bring_back(second)
 

@@ -59,7 +59,7 @@ def finely_cut(aspect: float, q: Array, grid: tuple[int, int], *, lines: int = 3
     inputs[:4], inputs[16] = q * lever(film.parameters), 1.0
     space, data = film.take()
     assert film.solver.kernel(inputs, film.offset, np.zeros(58), *data) == 0
-    pressure = data[-2].pressures[0, :rows, :columns].copy()
+    pressure = data[-2].usual.pressures[0, :rows, :columns].copy()
     film.bring_back(space)
     basis, (t, weight) = axial_basis(rows), np.polynomial.legendre.leggauss(lines)
     z, k = basis.place(t), basis.clustering

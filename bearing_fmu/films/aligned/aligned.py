@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.bore import Bore, fill_gap, gap_turn, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
 from bearing_fmu.films.aligned.grooves import hold_grooves, links, pressure_drag, side_flow
+from bearing_fmu.films.aligned.peak import largest_pressure
 from bearing_fmu.films.aligned.workspace import AlignedFilm
-from bearing_fmu.films.tilted.reynolds import summit
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
@@ -167,11 +167,8 @@ def _solve_pressure(
     shear = 0.0
     metric = land(bore, film.rings[0])
     for i in range(m):
-        above[i] = ambient
-        for r in range(film.values.shape[0]):
-            above[i] += film.centre[r] * film.modal[0, i, r]
         shear += metric[i] / film.fields[0, OPEN, i]
-    result[PEAK] = summit(above, m)
+    result[PEAK] = largest_pressure(film, bore, ambient)
     result[SHEAR] = 2.0 * cell * shear
     return True
 

@@ -14,14 +14,15 @@ from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.aligned.aligned import solve_aligned
-from bearing_fmu.films.aligned.workspace import AlignedFilm, aligned_film
-from bearing_fmu.films.corners import SPREAD, leaving, mix
+from bearing_fmu.films.aligned.workspace import AlignedFilms, aligned_films
+from bearing_fmu.films.corners import AWAY, SOON, SPREAD, leaving, mix, rise
 from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.parameters import BearingParameters
+from bearing_fmu.result import PEAK
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
 from bearing_fmu.tilting.evaluate import pads_kernel
@@ -33,13 +34,15 @@ Floats = NDArray[np.float64]
 
 @stage
 def _solve(
-    film: AlignedFilm, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
+    films: AlignedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
     reynolds = scales.reynolds * abs(speed)
-    change, usual = film.blend[:8], film.blend[8:]
-    share = leaving(q, v, speed, change) if bore is None else 0.0
+    change, usual = films.share[1:], films.before
+    share = leaving(q, v, speed, AWAY, change) if bore is None else 0.0
+    films.share[0] = share
     for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
         part = SPREAD if spread == 1 else 1.0
+        film = films.spread if spread == 1 else films.usual
         if not solve_aligned(
             film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, part, result
         ):
@@ -47,12 +50,15 @@ def _solve(
         if spread == 0 and share > 0.0:
             copy(result, usual)
     if 0.0 < share < 1.0:
+        peak = usual[PEAK] + rise(share, SOON)[0] * (result[PEAK] - usual[PEAK])
         mix(usual, share, change, result)
+        result[PEAK] = peak
     return OK
 
 
-def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFilm:
-    return aligned_film(parameters.columns, parameters.rows, parameters.diameter / parameters.width)
+def _prepare(parameters: BearingParameters, _space: dict[str, Any]) -> AlignedFilms:
+    aspect = parameters.diameter / parameters.width
+    return aligned_films(parameters.columns, parameters.rows, aspect, corners=not parameters.arcs)
 
 
 SOLVER = Solver(

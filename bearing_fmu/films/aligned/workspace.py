@@ -14,6 +14,9 @@ from bearing_fmu.result import FIELDS, RESULTS
 
 Floats = NDArray[np.float64]
 
+#: Least columns of the film of journals that leave the wall, see `films.corners`.
+SPREAD_COLUMNS = 64
+
 
 class AlignedFilm(NamedTuple):
     """Everything prepared once for one bearing; m columns, r even modes, h rows with z >= 0."""
@@ -22,6 +25,7 @@ class AlignedFilm(NamedTuple):
     drive: Floats  #: (r,) of a right-hand side that is constant over z
     shapes: Floats  #: (h, r) modes at the rows
     centre: Floats  #: (r,) modes at z = 0
+    fine: Floats  #: (2 rows, r) modes between the rows, from the middle on
     outflow: Floats  #: (r + 1,) flow out at both ends by unit pressures, and by the film that opens
     weights: Floats  #: (h,) of integrals over z, both halves
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
@@ -32,7 +36,6 @@ class AlignedFilm(NamedTuple):
     modal: Floats  #: (3, m, r) the pressure and two adjoint ones
     factor: Floats  #: (m, 2, r) reciprocal pivots and coupling to the last column
     forcing: Floats  #: (8, m) work space
-    blend: Floats  #: (8 + RESULTS,) work space of two grids, see `films.corners`
 
 
 def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
@@ -44,6 +47,7 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
     even = np.flatnonzero(np.abs(mass @ modes) > 1e-8)
     half = np.flatnonzero(basis.nodes[:rows] > -1e-12)
     double = np.where(basis.nodes[half] > 1e-12, 2.0, 1.0)
+    places = np.linspace(0.0, 1.0, 2 * rows + 1)[:-1]
     along = end_slopes(basis).sum(axis=0) * basis.stiffness_weights() * aspect**2
     angle = 2.0 * np.pi / columns * np.arange(2 * columns) / 2.0
     return AlignedFilm(
@@ -51,6 +55,7 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         drive=(mass @ modes)[even],
         shapes=np.ascontiguousarray(modes[np.ix_(half, even)]),
         centre=np.ascontiguousarray((basis.interpolation(np.zeros(1)) @ modes)[0, even]),
+        fine=np.ascontiguousarray((basis.interpolation(basis.place(places)) @ modes)[:, even]),
         outflow=np.append(-(along @ basis.slopes @ modes)[even], -basis.weights[rows:].sum()),
         weights=mass[half] * double,
         circle=np.array([[np.cos(t), np.sin(t)] for t in (angle[::2], angle[1::2])]),
@@ -61,5 +66,26 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         modal=np.zeros((3, columns, even.size)),
         factor=np.zeros((columns, 2, even.size)),
         forcing=np.zeros((8, columns)),
-        blend=np.zeros(8 + RESULTS),
     )
+
+
+class AlignedFilms(NamedTuple):
+    """The films of one bearing: the usual one, and that of journals that leave the wall."""
+
+    usual: AlignedFilm
+    spread: AlignedFilm
+    before: Floats  #: (RESULTS,) of the usual film
+    share: Floats  #: (9,) of the other one, its change by q and v
+
+
+def aligned_films(columns: int, rows: int, aspect: float, *, corners: bool = True) -> AlignedFilms:
+    """Prepare the films of a bearing, see `aligned_film`; without `corners` both are the usual one."""
+    usual = aligned_film(columns, rows, aspect)
+    more = corners and columns < SPREAD_COLUMNS
+    spread = aligned_film(SPREAD_COLUMNS, rows, aspect) if more else usual
+    return AlignedFilms(usual, spread, np.zeros(RESULTS), np.zeros(9))
+
+
+def served(films: AlignedFilms) -> AlignedFilm:
+    """The film that was solved last."""
+    return films.spread if films.share[0] > 0.0 else films.usual

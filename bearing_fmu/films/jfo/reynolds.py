@@ -39,10 +39,11 @@ from bearing_fmu.films.jfo.workspace import (
 )
 from bearing_fmu.films.tilted.grooves import pressure_drag
 from bearing_fmu.films.tilted.lines import wrench_of
-from bearing_fmu.films.tilted.reynolds import shape_gap, summit
+from bearing_fmu.films.tilted.reynolds import shape_gap
 from bearing_fmu.films.turbulence import ALONG, AROUND, LAMINAR_POWER, drag, slow_down
 from bearing_fmu.kernels.compiled import kernel, stage
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
+from bearing_fmu.kernels.summit import summit_of_ring
 from bearing_fmu.result import (
     ABSOLUTE,
     CONDUCTANCE,
@@ -133,7 +134,7 @@ def _integrate(jfo: JfoFilm, bore: Bore, reynolds: float, result: Floats) -> Non
         for i in range(m):
             film.nodal[0, j, i] = pressure[i]
             film.column[ABSOLUTE, j, i] = pressure[i]
-        peak = max(peak, summit(pressure, m))
+        peak = max(peak, summit_of_ring(pressure, m))
     wrench_of(film, film.nodal[0], result)
     shear, metric = 0.0, land(bore, film.rings[0])
     for j in range(n + 2):

@@ -13,16 +13,16 @@ from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.films.tilted.solve import solve_tilted
-from bearing_fmu.films.tilted.workspace import STOCK, TiltedFilm, tilted_film
+from bearing_fmu.films.tilted.workspace import SPACES, TiltedFilms, tilted_films
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.tilting.evaluate import pads_kernel
 from bearing_fmu.tilting.film import TiltingFilm
 from fmus.port.variable import Value
 
 
-def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> TiltedFilm:
+def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> TiltedFilms:
     aspect = parameters.diameter / parameters.width
-    return tilted_film(parameters.columns, parameters.rows, aspect, space)
+    return tilted_films(parameters.columns, parameters.rows, aspect, space, corners=not parameters.arcs)
 
 
 SOLVER = Solver(
@@ -32,7 +32,7 @@ SOLVER = Solver(
     tilts=True,
     bores=True,
     boundaries=("guembel", "reynolds"),
-    stock=STOCK,
+    stock=SPACES,
     pads=pads_kernel("tilted", solve_tilted, add_tilted),
 )
 

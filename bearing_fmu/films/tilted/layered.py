@@ -19,7 +19,7 @@ from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.layer import deflection, rough_flow
 from bearing_fmu.contact.slice import CONTACT_RESULTS
-from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.films.tilted.workspace import TiltedFilm, TiltedFilms
 from bearing_fmu.kernels.axial import AxialBasis
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
@@ -42,7 +42,7 @@ class LayeredFilm(NamedTuple):
     """A tilted film on its layer; n rows, m columns, n' and m' padded."""
 
     film: TiltedFilm
-    rigid: TiltedFilm  #: on which it is solved where the layer hardly gives way, with the same work space
+    rigid: TiltedFilms  #: on which it is solved where the layer hardly gives way, with the same work space
     table: Floats  #: of `contact.layer.layer_table`
     constants: (
         Floats  #: first s of the table; roughness, compliance times pressure unit over clearance; hardness
@@ -71,7 +71,7 @@ class LayeredFilm(NamedTuple):
 
 
 def layered_film(
-    film: TiltedFilm, rigid: TiltedFilm, basis: AxialBasis, from_rigid: Floats, first: float, table: Floats,
+    film: TiltedFilm, rigid: TiltedFilms, basis: AxialBasis, from_rigid: Floats, first: float, table: Floats,
     sigma: float, compliance: float, hardness: float,
 ) -> LayeredFilm:  # fmt: skip
     """Prepare the film, of this axial basis, with its own work space."""

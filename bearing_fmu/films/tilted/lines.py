@@ -1,7 +1,7 @@
 """The positive part of the pressure on lines between the rows, where it ends along the axis.
 
 Guembel's condition is cut exactly around the circumference, row by row.  Where the positive part ends at a z
-(see `corners.turning_round`) the rows are too coarse: there the axial polynomial is cut on eight times as
+(see `corners.turning_round`) the rows are too coarse: there the axial polynomial is cut on twelve times as
 many lines, at the points of Gauss' rule, and brought back to the rows by the polynomial through their nodes.
 """
 
@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.films.corners import add_change
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
@@ -19,8 +18,8 @@ from bearing_fmu.kernels.vector import LANES, add_rows
 
 Floats = NDArray[np.float64]
 
-#: Where in `film.mixed` stand the share of the lines, its change by q and v, and what they add to the wrench.
-SHARE, CHANGE, STEP = 0, 1, 9
+#: Where in `film.mixed` stands whether the lines serve, 0 or 1.
+SHARE = 0
 _WORK = 4
 
 
@@ -47,10 +46,9 @@ def wrench_of(film: TiltedFilm, part: Floats, wrench: Floats) -> None:
 
 @inner_kernel
 def take_lines(film: TiltedFilm, ambient: float, result: Floats) -> None:
-    """Take the share of the lines: in the bearing part at the nodes, and in the wrench."""
+    """Bearing part at the nodes, and wrench, from the lines."""
     n, m, length = film.face.shape[1], film.circle.shape[2], film.face.shape[2]
-    share, step = film.mixed[SHARE], film.mixed[STEP:]
-    part, above = film.forcing[_WORK, :n], film.forcing[_WORK, n]
+    part, above = film.nodal[0], film.forcing[_WORK, n]
     part[:] = 0.0
     pressures = film.pressures[0].reshape(-1)
     for k in range(film.lines.shape[0]):
@@ -63,22 +61,16 @@ def take_lines(film: TiltedFilm, ambient: float, result: Floats) -> None:
             back = film.back[k, j]
             for i in range(m):
                 part[j, i] += back * cut[0, i]
-    wrench_of(film, part, step)
-    for i in range(4):
-        step[i] -= result[i]
-        result[i] += share * step[i]
-    for j in range(n):
-        for i in range(m):
-            film.nodal[0, j, i] += share * (part[j, i] - film.nodal[0, j, i])
+    wrench_of(film, part, result)
 
 
 @inner_kernel
 def add_line_sides(film: TiltedFilm) -> None:
-    """Share of the lines in the right-hand sides of the adjoint."""
+    """Add the right-hand sides of the adjoint of the wrench from the lines."""
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
-    sides, cell = film.sides, film.mixed[SHARE] * 2.0 * np.pi / m
+    sides, cell = film.sides, 2.0 * np.pi / m
     for k in range(film.lines.shape[0]):
         own, ahead, behind = film.cuts[k, 1], film.cuts[k, 2], film.cuts[k, 3]
         weight, moment = 0.0, 0.0
@@ -98,10 +90,3 @@ def add_line_sides(film: TiltedFilm) -> None:
                 sides[at + width + j] += value * weight * across
                 sides[at + 2 * width + j] -= value * moment * across
                 sides[at + 3 * width + j] += value * moment * along
-
-
-@inner_kernel
-def add_share(film: TiltedFilm, result: Floats) -> None:
-    """What the change of the share adds to the tangent."""
-    if film.mixed[SHARE] > 0.0:
-        add_change(film.mixed[STEP:], film.mixed[CHANGE:STEP], result)

@@ -24,13 +24,13 @@ from bearing_fmu.contact.slice import AREA, CONTACT_RESULTS, FORCE, PRESSURE, WI
 from bearing_fmu.evaluate import one_kernel
 from bearing_fmu.film import Solver
 from bearing_fmu.film_with_memory import FilmWithMemory
-from bearing_fmu.films.corners import SPREAD, leaving, mix, rise
+from bearing_fmu.films.corners import LAYERED_AWAY, LAYERED_SPREAD, leaving, mix, rise
 from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
 from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.solve import solve_tilted
-from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
+from bearing_fmu.films.tilted.workspace import SPACES, own_space, tilted_film, tilted_films
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
@@ -94,10 +94,10 @@ def _solve_soft(
     """Solve with the layer, on the grids that serve."""
     grip = scales.friction * sliding_sense(speed, scales.radius)
     half = 0.5 * scales.width
-    change, usual = film.film.blend[:8], film.usual
-    share, status = leaving(q, v, speed, change), OK
+    change, usual = film.film.blend, film.usual
+    share, status = leaving(q, v, speed, LAYERED_AWAY, change), OK
     for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
-        part, of = (SPREAD, SPREAD_OUT) if spread == 1 else (GRADING, ON_LAYER)
+        part, of = (LAYERED_SPREAD, SPREAD_OUT) if spread == 1 else (GRADING, ON_LAYER)
         status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, part, of, result)
         if status != OK:
             break
@@ -127,7 +127,7 @@ def _solve_on_layer(
         share = _gives_way(film, q, gap, result, film.change)
         film.change[8] = share
         if share == 0.0:
-            remember(film, film.rigid, OF_RIGID, v, scales.ambient)
+            remember(film, film.rigid.usual, OF_RIGID, v, scales.ambient)
             return OK
         copy(result, film.stiff)
     status = _solve_soft(film, scales, q, v, speed, result, contact)
@@ -148,8 +148,8 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     aspect, columns, rows = parameters.diameter / parameters.width, parameters.columns, parameters.rows
     basis = axial_basis(rows, CLUSTERING)
     return layered_film(
-        tilted_film(columns, rows, aspect, space, CLUSTERING),
-        tilted_film(columns, rows, aspect, space),
+        tilted_film(columns, rows, aspect, own_space(columns, rows, space), CLUSTERING),
+        tilted_films(columns, rows, aspect, space, corners=False),
         basis,
         axial_basis(rows).interpolation(basis.nodes[:rows]),
         first,
@@ -189,6 +189,6 @@ LAYERED = Solver(
     kernel=one_kernel("layered", _solve_on_layer),
     prepare=_prepare,
     tilts=True,
-    stock=STOCK,
+    stock=SPACES,
 )
 """On a soft layer, with the solid contact in its own solution."""

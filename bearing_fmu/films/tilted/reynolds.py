@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, deepen, fill_gap, land, least_gap, place_rings
 from bearing_fmu.bore.gap import ROUGH_LIMIT, flow_gaps
-from bearing_fmu.films.corners import turning_round
 from bearing_fmu.films.tilted.grooves import hold_grooves, pressure_drag
-from bearing_fmu.films.tilted.lines import CHANGE, SHARE, take_lines, wrench_of
+from bearing_fmu.films.tilted.lines import SHARE, take_lines, wrench_of
+from bearing_fmu.films.tilted.peak import largest_pressure
 from bearing_fmu.films.tilted.rupture import ROUNDS, hold, move_rupture, release
 from bearing_fmu.films.tilted.side_flow import side_flow
 from bearing_fmu.films.tilted.workspace import TiltedFilm
@@ -158,15 +158,16 @@ def integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> N
     n, m = film.face.shape[1], film.circle.shape[2]
     cell = 2.0 * np.pi / m
     shear = 0.0
-    for j in range(n):
-        above, pressure = film.column[ABSOLUTE, j], film.pressures[0, j]
-        for i in range(m):
-            above[i] = pressure[i] + ambient
-        part = film.nodal[0, j]
-        bearing_part(above, m, part, film.nodal[1, j], film.nodal[2, j], film.nodal[3, j])
-    wrench_of(film, film.nodal[0], result)
     if film.mixed[SHARE] > 0.0:
         take_lines(film, ambient, result)
+    else:
+        for j in range(n):
+            above, pressure = film.column[ABSOLUTE, j], film.pressures[0, j]
+            for i in range(m):
+                above[i] = pressure[i] + ambient
+            part = film.nodal[0, j]
+            bearing_part(above, m, part, film.nodal[1, j], film.nodal[2, j], film.nodal[3, j])
+        wrench_of(film, film.nodal[0], result)
     metric = land(bore, film.rings[0])
     for j in range(n + 2):
         t = film.column[OPEN, j]
@@ -174,50 +175,9 @@ def integrate(film: TiltedFilm, bore: Bore, ambient: float, result: Floats) -> N
         for i in range(m):
             total += metric[i] / t[i]
         shear += film.weights[j] * cell * total
-    result[PEAK] = _peak(film, ambient)
+    result[PEAK] = largest_pressure(film, bore, ambient)
     result[SHEAR] = shear
     result[DRAG] = pressure_drag(film, bore)
-
-
-@inner_kernel
-def summit(p: Floats, count: int) -> float:
-    """Largest pressure on a ring of `count` nodes: the summit of the parabola at the largest value."""
-    at = 0
-    for i in range(count):
-        if p[i] > p[at]:
-            at = i
-    left, right = p[at - 1 if at > 0 else count - 1], p[at + 1 if at + 1 < count else 0]
-    bend = 2.0 * p[at] - left - right
-    rise = (right - left) ** 2 / (8.0 * bend) if bend > 0.0 else 0.0
-    return max(p[at] + rise, 0.0)
-
-
-@inner_kernel
-def _peak(film: TiltedFilm, ambient: float) -> float:
-    """Largest pressure over the film.
-
-    The axial polynomial is sampled between its nodes in the column of the largest nodal value and in
-    its two neighbours; around the circumference the summit of the parabola is taken.
-    """
-    n, m = film.face.shape[1], film.circle.shape[2]
-    top, column = 0.0, 0
-    for j in range(n):
-        pressure = film.pressures[0, j]
-        for i in range(m):
-            if pressure[i] > top:
-                top, column = pressure[i], i
-    back = column - 1 if column > 0 else m - 1
-    fore = column + 1 if column + 1 < m else 0
-    three = film.row[:3]
-    for k in range(film.fine.shape[0]):
-        three[:] = 0.0
-        for j in range(n):
-            value = film.fine[k, j]
-            three[0] += value * film.pressures[0, j, back]
-            three[1] += value * film.pressures[0, j, column]
-            three[2] += value * film.pressures[0, j, fore]
-        top = max(top, summit(three, 3))
-    return max(top + ambient, 0.0)
 
 
 @stage
@@ -233,6 +193,7 @@ def solve_pressure(
     reynolds: float,
     ruptures: int,
     part: float,
+    lines: float,
     result: Floats,
 ) -> int:
     """Solve for the pressure and integrate it.
@@ -259,6 +220,8 @@ def solve_pressure(
         1 for Reynolds' condition, 0 for Guembel's.
     part : float
         Of the usual grading of the grid, see `bore.bore.place_rings`.
+    lines : float
+        1 where the positive part is cut on lines, see `lines`; 0 for the rows.
     result : ndarray, shape (RESULTS,)
         Wrench, largest pressure and shear integral are written.
 
@@ -289,9 +252,7 @@ def solve_pressure(
             status = OK
             break
     if status == OK:
-        film.mixed[SHARE] = 0.0
-        if bore is None and ruptures == 0:
-            film.mixed[SHARE] = turning_round(q, v, speed, film.mixed[CHANGE:])
+        film.mixed[SHARE] = lines
         integrate(film, bore, ambient, result)
         result[FLOW] = side_flow(film, bore, q, v, speed, sigma)
         if reynolds > 0.0:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore, fill_gap_change
-from bearing_fmu.films.tilted.lines import SHARE, add_line_sides, add_share
+from bearing_fmu.films.tilted.lines import SHARE, add_line_sides
 from bearing_fmu.films.tilted.reynolds import unfold
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
@@ -47,9 +47,12 @@ def adjoint_sides(film: TiltedFilm) -> None:
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
     sides = film.sides
     sides[:] = 0.0
+    if film.mixed[SHARE] > 0.0:
+        add_line_sides(film)
+        return
     for j in range(n):
         own, ahead, behind = film.nodal[1, j], film.nodal[2, j], film.nodal[3, j]
-        z, weight = film.nodes[j], -film.weights[j] * cell * (1.0 - film.mixed[SHARE])
+        z, weight = film.nodes[j], -film.weights[j] * cell
         for i in range(m):
             back = i - 1 if i > 0 else m - 1
             fore = i + 1 if i + 1 < m else 0
@@ -63,8 +66,6 @@ def adjoint_sides(film: TiltedFilm) -> None:
             sides[at + width] = across
             sides[at + 2 * width] = -z * across
             sides[at + 3 * width] = z * along
-    if film.mixed[SHARE] > 0.0:
-        add_line_sides(film)
 
 
 @stage
@@ -237,4 +238,3 @@ def add_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, speed: float
         contract(film, k, result)
     add_grid_motion(film, result)
     damping(film, result)
-    add_share(film, result)

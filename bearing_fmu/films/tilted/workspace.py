@@ -2,11 +2,13 @@
 
 Nothing in the work space outlives an evaluation.  So films of one resolution take it from a common stock,
 which stays in the processor's nearest memory, whatever the number of bearings.
+
+In the corners of accuracy, see `films.corners`, grids of their own serve, no coarser than `CORNERS`.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +21,12 @@ from bearing_fmu.stock import Stock
 
 Floats = NDArray[np.float64]
 
-LINES = 8  #: for each row
+LINES = 12  #: for each row
+#: Where the films of `TiltedFilms` and their results stand.
+USUAL, SPREAD_OUT, TURNED, SHARP, GRIDS = range(5)
+#: Least columns and rows of the films beside the usual one; 0 for those of the latter.
+CORNERS = {SPREAD_OUT: (64, 0), TURNED: (64, 10), SHARP: (64, 12)}
+_SHARP_CLUSTERING = 2.0
 
 
 class TiltedFilm(NamedTuple):
@@ -36,8 +43,8 @@ class TiltedFilm(NamedTuple):
     products: Floats  #: ((n + 2) n n',) their outer products
     fine: Floats  #: (4 n, n) basis between the nodes
     ends: Floats  #: (2, n + 2) derivatives of what is 1 at an end and 0 at all other nodes
-    lines: Floats  #: (8 n, n) basis on the lines between the nodes
-    back: Floats  #: (8 n, n) what of a line's weight each row takes, over its own
+    lines: Floats  #: (12 n, n) basis on the lines between the nodes
+    back: Floats  #: (12 n, n) what of a line's weight each row takes, over its own
     circle: Floats  #: (2, 2, m) columns and faces; cos and sin of the uniform angle
     held: Floats  #: (n, m') 1 where the film is ruptured, 2 where the pressure is always the cavity's
     # from here on work space
@@ -46,8 +53,8 @@ class TiltedFilm(NamedTuple):
     column: Floats  #: (FIELDS, n + 2, m') at the columns
     face: Floats  #: (FIELDS, n, m') between the columns
     nodal: Floats  #: (4, n, m') bearing part of the pressure and its derivatives
-    cuts: Floats  #: (8 n, 4, m') as `nodal`, on the lines
-    mixed: Floats  #: (13,) share of the lines, see `lines`
+    cuts: Floats  #: (12 n, 4, m') as `nodal`, on the lines
+    mixed: Floats  #: (1,) whether the positive part is cut on lines, see `lines`
     pressures: Floats  #: (5, 3 n + 2, m') the pressure and four adjoint ones
     forcing: Floats  #: (6, 3 n + 2, m') tangent of the residual and what it is made of
     blocks: Floats  #: (3, m n n') factor
@@ -55,7 +62,7 @@ class TiltedFilm(NamedTuple):
     sides: Floats  #: (4 m n',) right-hand sides, then solutions
     block: Floats  #: (n n',) work space
     row: Floats  #: (8 n',) work space
-    blend: Floats  #: (8 + RESULTS,) work space of two grids, see `films.corners`
+    blend: Floats  #: (8,) work space of two grids, see `films.corners`
 
 
 def work_space(columns: int, rows: int) -> dict[str, Floats]:
@@ -68,7 +75,7 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
         "face": np.zeros((FIELDS, rows, length)),
         "nodal": np.zeros((4, rows, length)),
         "cuts": np.zeros((LINES * rows, 4, length)),
-        "mixed": np.zeros(13),
+        "mixed": np.zeros(1),
         "pressures": np.zeros((5, 3 * rows + 2, length)),
         "forcing": np.zeros((6, 3 * rows + 2, length)),
         "blocks": np.zeros((3, columns * rows * width)),
@@ -76,12 +83,12 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
         "sides": np.zeros(4 * columns * width),
         "block": np.zeros(rows * width),
         "row": np.zeros(8 * width),
-        "blend": np.zeros(8 + RESULTS),
+        "blend": np.zeros(8),
     }
 
 
 STOCK = Stock(work_space)
-"""Of the tilted films of this process."""
+"""Of the mass-conserving films of this process."""
 
 
 def tilted_film(
@@ -109,3 +116,61 @@ def tilted_film(
         held=np.zeros((rows, padded(columns))),
         **space,
     )
+
+
+class TiltedFilms(NamedTuple):
+    """The films of one bearing: the usual one, and those of the corners of accuracy."""
+
+    usual: TiltedFilm
+    spread: TiltedFilm  #: of journals that leave the wall
+    turned: TiltedFilm  #: of journals whose drive turns round between the ends
+    sharp: TiltedFilm  #: for the peak of journals whose pressure crowds at an end
+    results: Floats  #: (GRIDS, RESULTS) of each
+    shares: Floats  #: (GRIDS, 9) share of each, its change by q and v
+    served: Floats  #: (1,) the film that was solved last
+
+
+def corner_grid(film: int, columns: int, rows: int) -> tuple[int, int]:
+    """Columns and rows of one of the films of a bearing with columns x rows."""
+    least_columns, least_rows = CORNERS.get(film, (0, 0))
+    return max(columns, least_columns), max(rows, least_rows)
+
+
+def work_spaces(columns: int, rows: int) -> dict[str, Any]:
+    """Work spaces of the usual film and of those of the corners, by their grids."""
+    grids = {corner_grid(film, columns, rows) for film in range(GRIDS)}
+    return {f"{m} x {n}": work_space(m, n) for m, n in grids}
+
+
+SPACES = Stock(work_spaces)
+"""Of the tilted films of this process."""
+
+
+def own_space(columns: int, rows: int, spaces: dict[str, Any]) -> dict[str, Floats]:
+    """The work space of the usual film."""
+    space: dict[str, Floats] = spaces[f"{columns} x {rows}"]
+    return space
+
+
+def tilted_films(
+    columns: int, rows: int, aspect: float, spaces: dict[str, Any], *, corners: bool = True
+) -> TiltedFilms:
+    """Prepare the films of a bearing, see `tilted_film`; without `corners` the usual one is all of them."""
+    films: dict[tuple[int, int], TiltedFilm] = {}
+    chosen = []
+    for film in range(GRIDS):
+        grid = corner_grid(film if corners else USUAL, columns, rows)
+        if film == SHARP and grid[1] > rows:
+            films.pop(grid, None)
+            films[grid] = tilted_film(*grid, aspect, own_space(*grid, spaces), _SHARP_CLUSTERING)
+        elif grid not in films:
+            films[grid] = tilted_film(*grid, aspect, own_space(*grid, spaces))
+        chosen.append(films[grid])
+    usual, spread, turned, sharp = chosen
+    results, shares = np.zeros((GRIDS, RESULTS)), np.zeros((GRIDS, 9))
+    return TiltedFilms(usual, spread, turned, sharp, results, shares, np.zeros(1))
+
+
+def served(films: TiltedFilms) -> TiltedFilm:
+    """The film that was solved last."""
+    return (films.usual, films.spread, films.turned)[int(films.served[0])]

@@ -71,7 +71,7 @@ def sommerfeld_and_angle(aspect, eccentricity, depth="v1", fed_at_widest_gap=Fal
     if fed_at_widest_gap:
         # The references start the film with p = 0 on the line of the widest gap: here the middle column.
         space, (_, _, _, work, _) = film.take()
-        work.held[:, work.held.shape[1] // 2] = 2.0
+        work.usual.held[:, work.usual.held.shape[1] // 2] = 2.0
         film.bring_back(space)
     response = respond(film, [eccentricity, 0.0, 0.0, 0.0])
     fx, fy = response.wrench[:2]
