@@ -15,15 +15,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearing_fmu import depths
 from bearing_fmu.film import Film
-from bearing_fmu.films.aligned.workspace import AlignedFilm, AlignedFilms
-from bearing_fmu.films.aligned.workspace import served as served_aligned
+from bearing_fmu.films.aligned.corner_films import AlignedFilms
+from bearing_fmu.films.aligned.corner_films import served as served_aligned
+from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.jfo.film import ConservingFilm
 from bearing_fmu.films.jfo.workspace import JfoFilm
 from bearing_fmu.films.short.short import effective_state
+from bearing_fmu.films.tilted.corner_films import TiltedFilms, served
 from bearing_fmu.films.tilted.layered import CLUSTERING as ON_LAYER
 from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.on_layer import FilmOnLayer
-from bearing_fmu.films.tilted.workspace import TiltedFilm, TiltedFilms, served
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG
 from bearing_fmu.kernels.axial import CLUSTERING, axial_basis
 from bearing_fmu.kernels.compiled import kernel
@@ -240,7 +242,7 @@ def _both_halves(film: AlignedFilm) -> Floats:
 
 def _has_middle(film: AlignedFilm) -> bool:
     """Whether a row lies at z = 0, where the modes are those of the centre."""
-    return bool(np.isclose(film.shapes, film.centre, rtol=1e-9).all(axis=1).any())
+    return bool(np.isclose(film.shapes, film.fine[0], rtol=1e-9).all(axis=1).any())
 
 
 def _short(scales: Any, q: Floats, v: Floats, speed: float, angle: Floats, z: Floats) -> Floats:

@@ -8,7 +8,7 @@ and is positive, by and large, where this is.  The grid is graded to the narrow 
 from it, the journal *leaves* the wall, and what is positive lies in the wide gap.  Under tilt (u, w) changes
 over z; where it *turns round* between the ends, the positive part ends along lines of constant z.  Where the
 gap opens steeply from a narrow end, the pressure *crowds* there, which its largest value alone suffers from.
-The shares go smoothly from 0 to 1 with the state, so that the wrench does, and their change is in its tangent.
+The shares go smoothly from 0 to 1 with the state, so that the wrench does; their change is in its tangent.
 """
 
 from __future__ import annotations

@@ -11,8 +11,9 @@ from bearing_fmu.bore.bore import Bore
 from bearing_fmu.film import Film
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
+from bearing_fmu.films.tilted.corner_films import served
 from bearing_fmu.films.tilted.depth import SOLVER
-from bearing_fmu.films.tilted.workspace import TiltedFilm, served
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
 from bearing_fmu.outputs import INPUTS, OUT_GAP, OUTPUTS

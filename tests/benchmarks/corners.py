@@ -125,7 +125,7 @@ def leaving_reference(aspect: float, eccentricity: float, columns: int = 720, li
     return float(-6.0 * cell * weight @ (positive_part(pressure) * metric * cos).sum(axis=1))
 
 
-def _survey(states: int = 40) -> list[tuple[float, float, Array, Array]]:
+def survey(states: int = 40) -> list[tuple[float, float, Array, Array]]:
     """Aspect, least gap, position and velocity of random misaligned states."""
     random = np.random.default_rng(5)
     found = []
@@ -158,7 +158,7 @@ def _peaks() -> None:
             )
         rows.append((f"{row['case']}, least gap {row['hmin_over_C']} C", *cells))
     errors: dict[float, list[list[float]]] = {}
-    for aspect, least, q, v in _survey():
+    for aspect, least, q, v in survey():
         found = [
             respond(make_film("v1", plain(aspect, columns=c, rows=r)), q, v).p_max
             for c, r in (*GRIDS, (384, 30))

@@ -14,15 +14,24 @@ from bearing_fmu.contact.contact import add_aligned
 from bearing_fmu.evaluate import port_kernel
 from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.aligned.aligned import solve_aligned
-from bearing_fmu.films.aligned.workspace import AlignedFilms, aligned_films
+from bearing_fmu.films.aligned.corner_films import (
+    CHANGE,
+    COLUMNS,
+    FILM,
+    SHARE,
+    AlignedFilms,
+    aligned_films,
+    film_in,
+)
+from bearing_fmu.films.aligned.workspace import AlignedFilm
 from bearing_fmu.films.corners import AWAY, SOON, SPREAD, leaving, mix, rise
 from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.tilted.depth import SOLVER as TILTED
 from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
-from bearing_fmu.kernels.compiled import stage
+from bearing_fmu.kernels.compiled import kernel, stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.parameters import BearingParameters
-from bearing_fmu.result import PEAK
+from bearing_fmu.result import PEAK, RESULTS
 from bearing_fmu.scales import Scales
 from bearing_fmu.status import NO_SOLUTION, OK
 from bearing_fmu.tilting.evaluate import pads_kernel
@@ -32,20 +41,42 @@ from fmus.port.variable import Value
 Floats = NDArray[np.float64]
 
 
+@kernel
+def _solve_one(
+    film: AlignedFilm,
+    bore: Bore,
+    scales: Scales,
+    q: Floats,
+    v: Floats,
+    speed: float,
+    part: float,
+    result: Floats,
+) -> bool:
+    """Solve one of the films; a function of its own, as in `films.tilted.solve`."""
+    reynolds = scales.reynolds * abs(speed)
+    return solve_aligned(
+        film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, part, result
+    )
+
+
 @stage
 def _solve(
     films: AlignedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
-    reynolds = scales.reynolds * abs(speed)
-    change, usual = films.share[1:], films.before
+    usual, change = films.store[:RESULTS], films.store[CHANGE:FILM]
     share = leaving(q, v, speed, AWAY, change) if bore is None else 0.0
-    films.share[0] = share
+    films.store[SHARE] = share
     for spread in range(0 if share < 1.0 else 1, 2 if share > 0.0 else 1):
         part = SPREAD if spread == 1 else 1.0
-        film = films.spread if spread == 1 else films.usual
-        if not solve_aligned(
-            film, bore, q, v, speed, scales.ambient, scales.feed, scales.sigma, reynolds, part, result
-        ):
+        solved = False
+        if spread == 1 and films.store.size > FILM:
+            known = films.usual
+            modes, half, fine = known.values.shape[0], known.weights.shape[0], known.fine.shape[0]
+            film = film_in(films.store, COLUMNS, modes, half, fine)
+            solved = _solve_one(film, bore, scales, q, v, speed, part, result)
+        else:
+            solved = _solve_one(films.usual, bore, scales, q, v, speed, part, result)
+        if not solved:
             return NO_SOLUTION
         if spread == 0 and share > 0.0:
             copy(result, usual)

@@ -22,7 +22,7 @@ def largest_pressure(film: AlignedFilm, bore: Bore, ambient: float) -> float:
     """Largest pressure over the film, of whose nodes the bearing part is known."""
     m, modes = film.circle.shape[2], film.values.shape[0]
     column, best = 0, 0.0
-    for j in range(film.weights.shape[0]):
+    for j in range(0, film.weights.shape[0], 2):  # which column, shows on any row
         at = largest(film.nodal[j, 0], m)
         if film.nodal[j, 0, at] > best:
             column, best = at, film.nodal[j, 0, at]
@@ -35,7 +35,8 @@ def largest_pressure(film: AlignedFilm, bore: Bore, ambient: float) -> float:
             line, top = k, value
     five = film.forcing[1]
     for i in range(5):
-        at = (column + i - 2) % m
+        at = column + i - 2
+        at += m if at < 0 else (-m if at >= m else 0)
         five[i] = 0.0
         for r in range(modes):
             five[i] += film.fine[line, r] * film.modal[0, at, r]

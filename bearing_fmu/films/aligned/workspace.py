@@ -10,12 +10,9 @@ from scipy.linalg import eigh
 
 from bearing_fmu.kernels.axial import axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
-from bearing_fmu.result import FIELDS, RESULTS
+from bearing_fmu.result import FIELDS
 
 Floats = NDArray[np.float64]
-
-#: Least columns of the film of journals that leave the wall, see `films.corners`.
-SPREAD_COLUMNS = 64
 
 
 class AlignedFilm(NamedTuple):
@@ -24,7 +21,6 @@ class AlignedFilm(NamedTuple):
     values: Floats  #: (r,) eigenvalues, (2R/b)^2 included
     drive: Floats  #: (r,) of a right-hand side that is constant over z
     shapes: Floats  #: (h, r) modes at the rows
-    centre: Floats  #: (r,) modes at z = 0
     fine: Floats  #: (2 rows, r) modes between the rows, from the middle on
     outflow: Floats  #: (r + 1,) flow out at both ends by unit pressures, and by the film that opens
     weights: Floats  #: (h,) of integrals over z, both halves
@@ -54,7 +50,6 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         values=values[even],
         drive=(mass @ modes)[even],
         shapes=np.ascontiguousarray(modes[np.ix_(half, even)]),
-        centre=np.ascontiguousarray((basis.interpolation(np.zeros(1)) @ modes)[0, even]),
         fine=np.ascontiguousarray((basis.interpolation(basis.place(places)) @ modes)[:, even]),
         outflow=np.append(-(along @ basis.slopes @ modes)[even], -basis.weights[rows:].sum()),
         weights=mass[half] * double,
@@ -67,25 +62,3 @@ def aligned_film(columns: int, rows: int, aspect: float) -> AlignedFilm:
         factor=np.zeros((columns, 2, even.size)),
         forcing=np.zeros((8, columns)),
     )
-
-
-class AlignedFilms(NamedTuple):
-    """The films of one bearing: the usual one, and that of journals that leave the wall."""
-
-    usual: AlignedFilm
-    spread: AlignedFilm
-    before: Floats  #: (RESULTS,) of the usual film
-    share: Floats  #: (9,) of the other one, its change by q and v
-
-
-def aligned_films(columns: int, rows: int, aspect: float, *, corners: bool = True) -> AlignedFilms:
-    """Prepare the films of a bearing, see `aligned_film`; without `corners` both are the usual one."""
-    usual = aligned_film(columns, rows, aspect)
-    more = corners and columns < SPREAD_COLUMNS
-    spread = aligned_film(SPREAD_COLUMNS, rows, aspect) if more else usual
-    return AlignedFilms(usual, spread, np.zeros(RESULTS), np.zeros(9))
-
-
-def served(films: AlignedFilms) -> AlignedFilm:
-    """The film that was solved last."""
-    return films.spread if films.share[0] > 0.0 else films.usual

@@ -11,9 +11,10 @@ from bearing_fmu.film import Film, Solver
 from bearing_fmu.films.followed import film_of
 from bearing_fmu.films.jfo.film import SOLVER as CONSERVING
 from bearing_fmu.films.jfo.film import ConservingFilm
+from bearing_fmu.films.tilted.corner_films import TiltedFilms, tilted_films
 from bearing_fmu.films.tilted.on_layer import LAYERED, FilmOnLayer
 from bearing_fmu.films.tilted.solve import solve_tilted
-from bearing_fmu.films.tilted.workspace import SPACES, TiltedFilms, tilted_films
+from bearing_fmu.films.tilted.workspace import STOCK
 from bearing_fmu.parameters import BearingParameters
 from bearing_fmu.tilting.evaluate import pads_kernel
 from bearing_fmu.tilting.film import TiltingFilm
@@ -32,7 +33,7 @@ SOLVER = Solver(
     tilts=True,
     bores=True,
     boundaries=("guembel", "reynolds"),
-    stock=SPACES,
+    stock=STOCK,
     pads=pads_kernel("tilted", solve_tilted, add_tilted),
 )
 

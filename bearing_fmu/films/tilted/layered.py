@@ -19,7 +19,8 @@ from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.layer import deflection, rough_flow
 from bearing_fmu.contact.slice import CONTACT_RESULTS
-from bearing_fmu.films.tilted.workspace import TiltedFilm, TiltedFilms
+from bearing_fmu.films.tilted.corner_films import TiltedFilms
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.axial import AxialBasis
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, SIN

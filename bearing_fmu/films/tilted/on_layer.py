@@ -25,12 +25,13 @@ from bearing_fmu.evaluate import one_kernel
 from bearing_fmu.film import Solver
 from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.corners import LAYERED_AWAY, LAYERED_SPREAD, leaving, mix, rise
+from bearing_fmu.films.tilted.corner_films import tilted_films
 from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
 from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.solve import solve_tilted
-from bearing_fmu.films.tilted.workspace import SPACES, own_space, tilted_film, tilted_films
+from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
@@ -148,7 +149,7 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     aspect, columns, rows = parameters.diameter / parameters.width, parameters.columns, parameters.rows
     basis = axial_basis(rows, CLUSTERING)
     return layered_film(
-        tilted_film(columns, rows, aspect, own_space(columns, rows, space), CLUSTERING),
+        tilted_film(columns, rows, aspect, space, CLUSTERING),
         tilted_films(columns, rows, aspect, space, corners=False),
         basis,
         axial_basis(rows).interpolation(basis.nodes[:rows]),
@@ -189,6 +190,6 @@ LAYERED = Solver(
     kernel=one_kernel("layered", _solve_on_layer),
     prepare=_prepare,
     tilts=True,
-    stock=SPACES,
+    stock=STOCK,
 )
 """On a soft layer, with the solid contact in its own solution."""

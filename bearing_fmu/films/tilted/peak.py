@@ -39,7 +39,8 @@ def largest_pressure(film: TiltedFilm, bore: Bore, ambient: float) -> float:
     for k in range(max(line - 1, 0), min(line + 2, film.fine.shape[0])):
         five[:] = 0.0
         for i in range(5):
-            at = (column + i - 2) % m
+            at = column + i - 2
+            at += m if at < 0 else (-m if at >= m else 0)
             for j in range(n):
                 five[i] += film.fine[k, j] * film.pressures[0, j, at]
         top = max(top, crest(five) if bore is None else summit(five[1], five[2], five[3]))

@@ -12,10 +12,25 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import Bore
 from bearing_fmu.films.corners import AWAY, SOON, SPREAD, crowded, leaving, mix, rise, turning_round
+from bearing_fmu.films.tilted.corner_films import (
+    CHANGE,
+    COLUMNS,
+    GRIDS,
+    PLACE,
+    RESULT,
+    ROWS,
+    SHARE,
+    SHARP,
+    SPREAD_OUT,
+    TURNED,
+    USUAL,
+    TiltedFilms,
+    film_in,
+)
 from bearing_fmu.films.tilted.reynolds import solve_pressure
 from bearing_fmu.films.tilted.tangent import add_tangent
-from bearing_fmu.films.tilted.workspace import GRIDS, SHARP, SPREAD_OUT, TURNED, USUAL, TiltedFilms
-from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.films.tilted.workspace import TiltedFilm
+from bearing_fmu.kernels.compiled import inner_kernel, kernel, stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.result import PEAK
 from bearing_fmu.scales import Scales
@@ -27,20 +42,56 @@ Floats = NDArray[np.float64]
 @inner_kernel
 def _share(films: TiltedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float) -> None:
     """Shares of the films; the later ones take theirs of what the earlier ones make together."""
-    films.shares[:] = 0.0
-    films.shares[USUAL, 0] = 1.0
+    shares = films.shares
+    shares[:GRIDS, SHARE] = 0.0
+    shares[USUAL, SHARE] = 1.0
     if bore is None:
-        spread, turned = films.shares[SPREAD_OUT], films.shares[TURNED]
-        spread[0] = leaving(q, v, speed, AWAY, spread[1:])
+        shares[SPREAD_OUT, SHARE] = leaving(q, v, speed, AWAY, shares[SPREAD_OUT, CHANGE:PLACE])
         if scales.ruptures == 0:
-            turned[0] = turning_round(q, v, speed, turned[1:])
-        if films.sharp.nodes.shape[0] > films.usual.nodes.shape[0]:
-            sharp = films.shares[SHARP]
-            sharp[0], sharp[1] = crowded(q, v, speed)
-    if max(films.shares[SPREAD_OUT, 0], films.shares[TURNED, 0]) == 1.0:
-        films.shares[USUAL, 0] = 0.0
-    if films.shares[TURNED, 0] == 1.0:
-        films.shares[SPREAD_OUT, 0] = 0.0
+            shares[TURNED, SHARE] = turning_round(q, v, speed, shares[TURNED, CHANGE:PLACE])
+        if shares[SHARP, PLACE] >= 0.0:
+            shares[SHARP, SHARE], shares[SHARP, CHANGE] = crowded(q, v, speed)
+    if max(shares[SPREAD_OUT, SHARE], shares[TURNED, SHARE]) == 1.0:
+        shares[USUAL, SHARE] = 0.0
+    if shares[TURNED, SHARE] == 1.0:
+        shares[SPREAD_OUT, SHARE] = 0.0
+
+
+@kernel
+def _solve_one(
+    film: TiltedFilm,
+    bore: Bore,
+    scales: Scales,
+    q: Floats,
+    v: Floats,
+    speed: float,
+    part: float,
+    grid: int,
+    result: Floats,
+) -> int:
+    """Solve one of the films.
+
+    A function of its own, which is compiled once for all of them.
+    """
+    reynolds, lines = scales.reynolds * abs(speed), 1.0 if grid == TURNED else 0.0
+    status = solve_pressure(
+        film,
+        bore,
+        q,
+        v,
+        speed,
+        scales.ambient,
+        scales.feed,
+        scales.sigma,
+        reynolds,
+        scales.ruptures,
+        part,
+        lines,
+        result,
+    )
+    if status == OK and grid != SHARP:
+        add_tangent(film, bore, q, v, speed, result)
+    return status
 
 
 @inner_kernel
@@ -48,16 +99,16 @@ def _combine(films: TiltedFilms, result: Floats) -> None:
     """Mix what was solved."""
     begun, peak = False, 0.0
     for grid in range(GRIDS):
-        share = films.shares[grid, 0]
+        share = films.shares[grid, SHARE]
         if share == 0.0:
             continue
         part = rise(share, SOON)[0] if grid == SPREAD_OUT else share
-        peak += (part if begun else 1.0) * (films.results[grid, PEAK] - peak)
+        peak += (part if begun else 1.0) * (films.shares[grid, RESULT + PEAK] - peak)
         if grid == SHARP:
             continue
         if begun and share < 1.0:
-            mix(result, share, films.shares[grid, 1:], films.results[grid])
-        copy(films.results[grid], result)
+            mix(result, share, films.shares[grid, CHANGE:PLACE], films.shares[grid, RESULT:])
+        copy(films.shares[grid, RESULT:], result)
         begun = True
     result[PEAK] = peak
 
@@ -67,43 +118,25 @@ def solve_tilted(
     films: TiltedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats
 ) -> int:
     """Solve the film, see `bearing_fmu.evaluate.port_kernel`."""
-    reynolds = scales.reynolds * abs(speed)
     _share(films, bore, scales, q, v, speed)
     shares, status = films.shares, OK
     for grid in range(GRIDS):
-        if shares[grid, 0] == 0.0:
+        if shares[grid, SHARE] == 0.0:
             continue
-        film, part = films.usual, 1.0
-        if grid == SPREAD_OUT:
-            film, part = films.spread, SPREAD
-        elif grid == TURNED:
-            film = films.turned
-        elif grid == SHARP:
-            film, part = films.sharp, shares[SHARP, 1]
-        found = films.results[grid]
-        status = solve_pressure(
-            film,
-            bore,
-            q,
-            v,
-            speed,
-            scales.ambient,
-            scales.feed,
-            scales.sigma,
-            reynolds,
-            scales.ruptures,
-            part,
-            1.0 if grid == TURNED else 0.0,
-            found,
-        )
+        part = SPREAD if grid == SPREAD_OUT else (shares[SHARP, CHANGE] if grid == SHARP else 1.0)
+        at, found = int(shares[grid, PLACE]), films.shares[grid, RESULT:]
+        if at < 0:
+            status = _solve_one(films.usual, bore, scales, q, v, speed, part, grid, found)
+        else:
+            film = film_in(films.store, at, int(shares[grid, COLUMNS]), int(shares[grid, ROWS]))
+            status = _solve_one(film, bore, scales, q, v, speed, part, grid, found)
         if grid == SHARP:
             if status != OK:  # the peak of the usual grid is an answer, too
-                shares[SHARP, 0], status = 0.0, OK
+                shares[SHARP, SHARE], status = 0.0, OK
             break
         if status != OK:
             break
-        films.served[0] = grid
-        add_tangent(film, bore, q, v, speed, found)
+        shares[GRIDS, 0] = grid
     if status == OK:
         _combine(films, result)
     return status

@@ -3,12 +3,12 @@
 Nothing in the work space outlives an evaluation.  So films of one resolution take it from a common stock,
 which stays in the processor's nearest memory, whatever the number of bearings.
 
-In the corners of accuracy, see `films.corners`, grids of their own serve, no coarser than `CORNERS`.
+In the corners of accuracy grids of their own serve, see `corner_films`.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,17 +16,12 @@ from numpy.typing import NDArray
 from bearing_fmu.kernels.axial import CLUSTERING, axial_basis, end_slopes
 from bearing_fmu.kernels.grid import RING_ROWS
 from bearing_fmu.kernels.vector import padded
-from bearing_fmu.result import FIELDS, RESULTS
+from bearing_fmu.result import FIELDS
 from bearing_fmu.stock import Stock
 
 Floats = NDArray[np.float64]
 
 LINES = 12  #: for each row
-#: Where the films of `TiltedFilms` and their results stand.
-USUAL, SPREAD_OUT, TURNED, SHARP, GRIDS = range(5)
-#: Least columns and rows of the films beside the usual one; 0 for those of the latter.
-CORNERS = {SPREAD_OUT: (64, 0), TURNED: (64, 10), SHARP: (64, 12)}
-_SHARP_CLUSTERING = 2.0
 
 
 class TiltedFilm(NamedTuple):
@@ -88,7 +83,7 @@ def work_space(columns: int, rows: int) -> dict[str, Floats]:
 
 
 STOCK = Stock(work_space)
-"""Of the mass-conserving films of this process."""
+"""Of the tilted films of this process."""
 
 
 def tilted_film(
@@ -116,61 +111,3 @@ def tilted_film(
         held=np.zeros((rows, padded(columns))),
         **space,
     )
-
-
-class TiltedFilms(NamedTuple):
-    """The films of one bearing: the usual one, and those of the corners of accuracy."""
-
-    usual: TiltedFilm
-    spread: TiltedFilm  #: of journals that leave the wall
-    turned: TiltedFilm  #: of journals whose drive turns round between the ends
-    sharp: TiltedFilm  #: for the peak of journals whose pressure crowds at an end
-    results: Floats  #: (GRIDS, RESULTS) of each
-    shares: Floats  #: (GRIDS, 9) share of each, its change by q and v
-    served: Floats  #: (1,) the film that was solved last
-
-
-def corner_grid(film: int, columns: int, rows: int) -> tuple[int, int]:
-    """Columns and rows of one of the films of a bearing with columns x rows."""
-    least_columns, least_rows = CORNERS.get(film, (0, 0))
-    return max(columns, least_columns), max(rows, least_rows)
-
-
-def work_spaces(columns: int, rows: int) -> dict[str, Any]:
-    """Work spaces of the usual film and of those of the corners, by their grids."""
-    grids = {corner_grid(film, columns, rows) for film in range(GRIDS)}
-    return {f"{m} x {n}": work_space(m, n) for m, n in grids}
-
-
-SPACES = Stock(work_spaces)
-"""Of the tilted films of this process."""
-
-
-def own_space(columns: int, rows: int, spaces: dict[str, Any]) -> dict[str, Floats]:
-    """The work space of the usual film."""
-    space: dict[str, Floats] = spaces[f"{columns} x {rows}"]
-    return space
-
-
-def tilted_films(
-    columns: int, rows: int, aspect: float, spaces: dict[str, Any], *, corners: bool = True
-) -> TiltedFilms:
-    """Prepare the films of a bearing, see `tilted_film`; without `corners` the usual one is all of them."""
-    films: dict[tuple[int, int], TiltedFilm] = {}
-    chosen = []
-    for film in range(GRIDS):
-        grid = corner_grid(film if corners else USUAL, columns, rows)
-        if film == SHARP and grid[1] > rows:
-            films.pop(grid, None)
-            films[grid] = tilted_film(*grid, aspect, own_space(*grid, spaces), _SHARP_CLUSTERING)
-        elif grid not in films:
-            films[grid] = tilted_film(*grid, aspect, own_space(*grid, spaces))
-        chosen.append(films[grid])
-    usual, spread, turned, sharp = chosen
-    results, shares = np.zeros((GRIDS, RESULTS)), np.zeros((GRIDS, 9))
-    return TiltedFilms(usual, spread, turned, sharp, results, shares, np.zeros(1))
-
-
-def served(films: TiltedFilms) -> TiltedFilm:
-    """The film that was solved last."""
-    return (films.usual, films.spread, films.turned)[int(films.served[0])]
