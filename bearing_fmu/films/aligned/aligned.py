@@ -166,9 +166,13 @@ def _solve_pressure(
     result[FLOW] = side_flow(film, bore, speed)
     shear = 0.0
     metric = land(bore, film.rings[0])
+    middle = film.fine[0]
     for i in range(m):
+        above[i] = ambient
+        for r in range(film.values.shape[0]):
+            above[i] += middle[r] * film.modal[0, i, r]
         shear += metric[i] / film.fields[0, OPEN, i]
-    result[PEAK] = largest_pressure(film, bore, ambient)
+    result[PEAK] = largest_pressure(film, bore, above, ambient)
     result[SHEAR] = 2.0 * cell * shear
     return True
 

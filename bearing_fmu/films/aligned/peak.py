@@ -18,11 +18,12 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def largest_pressure(film: AlignedFilm, bore: Bore, ambient: float) -> float:
-    """Largest pressure over the film, of whose nodes the bearing part is known."""
+def largest_pressure(film: AlignedFilm, bore: Bore, middle: Floats, ambient: float) -> float:
+    """Largest pressure over the film, of which the pressure in the middle and the bearing part are known."""
     m, modes = film.circle.shape[2], film.values.shape[0]
-    column, best = 0, 0.0
-    for j in range(0, film.weights.shape[0], 2):  # which column, shows on any row
+    column = largest(middle, m)
+    best = middle[column]
+    for j in range(1, film.weights.shape[0], 2):  # which column, shows on any row
         at = largest(film.nodal[j, 0], m)
         if film.nodal[j, 0, at] > best:
             column, best = at, film.nodal[j, 0, at]

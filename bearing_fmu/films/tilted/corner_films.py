@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.films.tilted.workspace import LINES, TiltedFilm, tilted_film, work_space
-from bearing_fmu.kernels.compiled import inner_kernel, stage
+from bearing_fmu.kernels.compiled import stage
 from bearing_fmu.kernels.grid import RING_ROWS
+from bearing_fmu.kernels.store import block, line, plane, put_away, views
 from bearing_fmu.kernels.vector import LANES
 from bearing_fmu.result import FIELDS, RESULTS
 
@@ -38,68 +39,36 @@ class TiltedFilms(NamedTuple):
     shares: Floats  #: (GRIDS + 1, RESULT + RESULTS) of each; the last row begins with the film solved last
 
 
-@inner_kernel
-def _room(size: int) -> int:
-    """What an array takes in the store."""
-    return LANES * -(-size // LANES)
-
-
 @stage
 def film_in(store: Floats, at: int, m: int, n: int) -> TiltedFilm:
     """The film of m columns and n rows that stands in a store from `at` on, field after field."""
-    length, width = _room(m), _room(n)
-    nodes = store[at : at + (n + 2)]
-    at += _room(n + 2)
-    weights = store[at : at + (n + 2)]
-    at += _room(n + 2)
-    stiffness = store[at : at + (n + 2)]
-    at += _room(n + 2)
-    slopes = store[at : at + ((n + 2) * n)]
-    at += _room((n + 2) * n)
-    products = store[at : at + ((n + 2) * n * width)]
-    at += _room((n + 2) * n * width)
-    fine = store[at : at + (4 * n) * n].reshape((4 * n, n))
-    at += _room((4 * n) * n)
-    ends = store[at : at + 2 * (n + 2)].reshape((2, n + 2))
-    at += _room(2 * (n + 2))
-    lines = store[at : at + (LINES * n) * n].reshape((LINES * n, n))
-    at += _room((LINES * n) * n)
-    back = store[at : at + (LINES * n) * n].reshape((LINES * n, n))
-    at += _room((LINES * n) * n)
-    circle = store[at : at + 2 * 2 * m].reshape((2, 2, m))
-    at += _room(2 * 2 * m)
-    held = store[at : at + n * length].reshape((n, length))
-    at += _room(n * length)
-    rings = store[at : at + 2 * RING_ROWS * m].reshape((2, RING_ROWS, m))
-    at += _room(2 * RING_ROWS * m)
-    grading = store[at : at + 7 * 4].reshape((7, 4))
-    at += _room(7 * 4)
-    column = store[at : at + FIELDS * (n + 2) * length].reshape((FIELDS, n + 2, length))
-    at += _room(FIELDS * (n + 2) * length)
-    face = store[at : at + FIELDS * n * length].reshape((FIELDS, n, length))
-    at += _room(FIELDS * n * length)
-    nodal = store[at : at + 4 * n * length].reshape((4, n, length))
-    at += _room(4 * n * length)
-    cuts = store[at : at + (LINES * n) * 4 * length].reshape((LINES * n, 4, length))
-    at += _room((LINES * n) * 4 * length)
-    mixed = store[at : at + 1]
-    at += _room(1)
-    pressures = store[at : at + 5 * (3 * n + 2) * length].reshape((5, 3 * n + 2, length))
-    at += _room(5 * (3 * n + 2) * length)
-    forcing = store[at : at + 6 * (3 * n + 2) * length].reshape((6, 3 * n + 2, length))
-    at += _room(6 * (3 * n + 2) * length)
-    blocks = store[at : at + 3 * (m * n * width)].reshape((3, m * n * width))
-    at += _room(3 * (m * n * width))
-    coupling = store[at : at + m * width]
-    at += _room(m * width)
-    sides = store[at : at + 4 * m * width]
-    at += _room(4 * m * width)
-    block = store[at : at + n * width]
-    at += _room(n * width)
-    row = store[at : at + 8 * width]
-    at += _room(8 * width)
-    blend = store[at : at + 8]
-    at += _room(8)
+    length, width = LANES * -(-m // LANES), LANES * -(-n // LANES)
+    nodes, at = line(store, at, n + 2)
+    weights, at = line(store, at, n + 2)
+    stiffness, at = line(store, at, n + 2)
+    slopes, at = line(store, at, (n + 2) * n)
+    products, at = line(store, at, (n + 2) * n * width)
+    fine, at = plane(store, at, 4 * n, n)
+    ends, at = plane(store, at, 2, n + 2)
+    lines, at = plane(store, at, LINES * n, n)
+    back, at = plane(store, at, LINES * n, n)
+    circle, at = block(store, at, 2, 2, m)
+    held, at = plane(store, at, n, length)
+    rings, at = block(store, at, 2, RING_ROWS, m)
+    grading, at = plane(store, at, 7, 4)
+    column, at = block(store, at, FIELDS, n + 2, length)
+    face, at = block(store, at, FIELDS, n, length)
+    nodal, at = block(store, at, 4, n, length)
+    cuts, at = block(store, at, LINES * n, 4, length)
+    mixed, at = line(store, at, 1)
+    pressures, at = block(store, at, 5, 3 * n + 2, length)
+    forcing, at = block(store, at, 6, 3 * n + 2, length)
+    blocks, at = plane(store, at, 3, m * n * width)
+    coupling, at = line(store, at, m * width)
+    sides, at = line(store, at, 4 * m * width)
+    inner, at = line(store, at, n * width)
+    row, at = line(store, at, 8 * width)
+    blend, at = line(store, at, 8)
     return TiltedFilm(
         nodes,
         weights,
@@ -124,7 +93,7 @@ def film_in(store: Floats, at: int, m: int, n: int) -> TiltedFilm:
         blocks,
         coupling,
         sides,
-        block,
+        inner,
         row,
         blend,
     )
@@ -141,10 +110,9 @@ def tilted_films(
         if not corners or grid == (columns, rows) or (film == SHARP and grid[1] == rows):
             continue
         clustering = (_SHARP_CLUSTERING,) if film == SHARP else ()
-        for field in tilted_film(*grid, aspect, work_space(*grid), *clustering):
-            parts.append(np.append(field, np.zeros(-field.size % LANES)))
+        parts.append(put_away(tilted_film(*grid, aspect, work_space(*grid), *clustering)))
         shares[film, PLACE:RESULT] = at, *grid
-        at = sum(part.size for part in parts)
+        at += parts[-1].size
     usual = tilted_film(columns, rows, aspect, space)
     return TiltedFilms(usual, np.concatenate(parts), shares)
 
@@ -152,5 +120,6 @@ def tilted_films(
 def served(films: TiltedFilms) -> TiltedFilm:
     """The film that was solved last."""
     at, columns, rows = (int(number) for number in films.shares[int(films.shares[GRIDS, 0]), PLACE:RESULT])
-    unpack = film_in.py_func  # type: ignore[attr-defined]
-    return films.usual if at < 0 else unpack(films.store, at, columns, rows)
+    if at < 0:
+        return films.usual
+    return TiltedFilm(*views(films.store, at, tilted_film(columns, rows, 1.0, work_space(columns, rows))))
