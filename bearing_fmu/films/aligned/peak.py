@@ -21,19 +21,19 @@ Floats = NDArray[np.float64]
 def largest_pressure(film: AlignedFilm, bore: Bore, middle: Floats, ambient: float) -> float:
     """Largest pressure over the film, of which the pressure in the middle and the bearing part are known."""
     m, modes = film.circle.shape[2], film.values.shape[0]
-    column = largest(middle, m)
-    best = middle[column]
-    for j in range(1, film.weights.shape[0], 2):  # which column, shows on any row
-        at = largest(film.nodal[j, 0], m)
-        if film.nodal[j, 0, at] > best:
-            column, best = at, film.nodal[j, 0, at]
-    line, top = 0, -np.inf
-    for k in range(film.fine.shape[0]):
-        value = 0.0
-        for r in range(modes):
-            value += film.fine[k, r] * film.modal[0, column, r]
-        if value > top:
-            line, top = k, value
+    column, line = largest(middle, m), 0
+    if bore is None:  # over grooves, which reach to the ends, the axial functions swing
+        best, top = middle[column], -np.inf
+        for j in range(1, film.weights.shape[0], 2):  # which column, shows on any row
+            at = largest(film.nodal[j, 0], m)
+            if film.nodal[j, 0, at] > best:
+                column, best = at, film.nodal[j, 0, at]
+        for k in range(film.fine.shape[0]):
+            value = 0.0
+            for r in range(modes):
+                value += film.fine[k, r] * film.modal[0, column, r]
+            if value > top:
+                line, top = k, value
     five = film.forcing[1]
     for i in range(5):
         at = column + i - 2
