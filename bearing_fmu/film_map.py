@@ -27,7 +27,8 @@ from bearing_fmu.films.tilted.layered import LayeredFilm
 from bearing_fmu.films.tilted.on_layer import FilmOnLayer
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.films.turbulence import ALONG
-from bearing_fmu.kernels.axial import CLUSTERING, axial_basis
+from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.cells import axial_cells
 from bearing_fmu.kernels.compiled import kernel
 from bearing_fmu.kernels.grid import COS, SIN
 from bearing_fmu.outputs import INPUTS, OUTPUTS
@@ -204,17 +205,17 @@ def _pressure(
     film: Any, scales: Any, q: Floats, v: Floats, speed: float, angle: Floats, z: Floats
 ) -> Floats | None:
     """Pressure over the ambient one, in units of the film's, shape (z, angle)."""
-    clustering = CLUSTERING
     if isinstance(film, LayeredFilm):
-        gave_way = film.change[8] > 0.0
-        film, clustering = (film.film, ON_LAYER) if gave_way else (served(film.rigid), CLUSTERING)
+        if film.change[8] > 0.0:
+            return _of_cells(film, angle, z)
+        film = served(film.rigid)
     if isinstance(film, TiltedFilms):
         film = served(film)
     if isinstance(film, AlignedFilms):
         film = served_aligned(film)
     if isinstance(film, TiltedFilm):
         n, m = film.face.shape[1], film.circle.shape[2]
-        return _between(film.rings[0], film.pressures[0, :n, :m], angle, z, clustering)
+        return _between(film.rings[0], film.pressures[0, :n, :m], angle, z)
     if isinstance(film, AlignedFilm):
         return _between(film.rings[0], _both_halves(film), angle, z)
     if isinstance(film, np.ndarray):
@@ -222,12 +223,30 @@ def _pressure(
     return None
 
 
-def _between(ring: Floats, nodal: Floats, angle: Floats, z: Floats, clustering: float = CLUSTERING) -> Floats:
+def _between(ring: Floats, nodal: Floats, angle: Floats, z: Floats) -> Floats:
     """Between the nodes: along the axis the film's own functions, around the circumference straight."""
-    along = axial_basis(nodal.shape[0], clustering).interpolation(z[1:-1]) @ nodal
+    along = axial_basis(nodal.shape[0]).interpolation(z[1:-1]) @ nodal
     where = np.arctan2(ring[SIN], ring[COS])
     rows = [np.interp(angle, where, row, period=TURN) for row in along]
     return np.vstack([np.zeros(angle.size), *rows, np.zeros(angle.size)])
+
+
+def _of_cells(layered: LayeredFilm, angle: Floats, z: Floats) -> Floats:
+    """Between the middles of the cells as the film, beyond the last ones a power with its mean."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    cells = axial_cells(n, ON_LAYER)
+    nodal, first, last = film.pressures[0, :n, :m], cells.nodes[0], cells.nodes[n - 1]
+    along = cells.interpolation(np.clip(z, first, last)) @ nodal
+    for end, outside, way in (
+        (0, z < first, (z + 1.0) / (1.0 + first)),
+        (1, z > last, (1.0 - z) / (1.0 - last)),
+    ):
+        mean = 1.0 + (layered.outer[0, end, :m] - 1.0) / layered.constants[5]
+        along[outside] *= way[outside, None] ** (1.0 / np.clip(mean, 0.05, 0.999) - 1.0)
+    along = np.minimum(along, nodal.max(axis=0))
+    where = np.arctan2(film.rings[0, SIN], film.rings[0, COS])
+    return np.array([np.interp(angle, where, row, period=TURN) for row in along])
 
 
 def _both_halves(film: AlignedFilm) -> Floats:

@@ -23,7 +23,7 @@ from bearing_fmu.parameters import BearingParameters
 
 Floats = NDArray[np.float64]
 
-_STEP = 0.05
+STEP = 0.05  #: of tables, in roughnesses
 _SHARPNESS = 4.0
 #: Bounded pressure over the hardness where the asperities alone would press with the hardness.
 YIELDING = 2.0 ** (-1.0 / _SHARPNESS)
@@ -60,8 +60,8 @@ def layer_table(parameters: BearingParameters) -> tuple[float, Floats]:
         parameters.contact_modulus * asperity_integral(2.5, h), parameters.layer_hardness
     )
     deflection = compliance / sigma * (pressure - pressure[-1])
-    count = int(np.ceil((REACH - deepest) / _STEP))
-    s = REACH - _STEP * np.arange(count, -1, -1)
+    count = int(np.ceil((REACH - deepest) / STEP))
+    s = REACH - STEP * np.arange(count, -1, -1)
     values = np.interp(s, h - deflection, deflection)
     # one step of Newton's method each makes the interpolated inverse smooth
     for _ in range(3):
@@ -91,7 +91,7 @@ def _slope(h: Floats, parameters: BearingParameters) -> Floats:
 def layered_pressure(parameters: BearingParameters, gap: Floats) -> Floats:
     """Asperity pressure, Pa, where the film does not press the layer; of rigid gaps in roughnesses."""
     first, table = layer_table(parameters)
-    at = np.clip((gap - first) / _STEP, 0.0, table.shape[0] - 1e-9)
+    at = np.clip((gap - first) / STEP, 0.0, table.shape[0] - 1e-9)
     c, x = table[at.astype(int)], at % 1.0
     back = c[..., 0] + x * (c[..., 1] + x * (c[..., 2] + x * c[..., 3]))
     return np.asarray(np.where(gap < REACH, back, 0.0) * parameters.roughness / parameters.layer_compliance)
@@ -102,12 +102,12 @@ def deflection(s: float, first: float, table: Floats) -> tuple[float, float, flo
     """Deflection under the asperities, with two derivatives by s; all in roughnesses."""
     if s >= REACH:
         return 0.0, 0.0, 0.0
-    place = max((s - first) / _STEP, 0.0)
+    place = max((s - first) / STEP, 0.0)
     i = min(int(place), table.shape[0] - 1)
     x = place - i
     a, b, c, d = table[i, 0], table[i, 1], table[i, 2], table[i, 3]
     slope, bend = b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d
-    return a + x * (b + x * (c + x * d)), slope / _STEP, bend / (_STEP * _STEP)
+    return a + x * (b + x * (c + x * d)), slope / STEP, bend / (STEP * STEP)
 
 
 @inner_kernel

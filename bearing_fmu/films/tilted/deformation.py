@@ -47,7 +47,7 @@ def remember(layered: LayeredFilm, film: TiltedFilm, of: float, v: Floats, ambie
     copy(v, now[_VELOCITY : _VELOCITY + 4])
     follows = of != OF_RIGID and rate > 0.0 and then[0] == of
     now[_RATES] = 1.0 if follows else 0.0
-    for j in range(n):
+    for j in range(film.face.shape[1]):
         pressure = film.pressures[0, j]
         for i in range(m):
             at = KEPT + j * m + i
@@ -83,7 +83,7 @@ def bring_over(layered: LayeredFilm, of: float) -> None:
         k0, k1, k2, k3 = (first - 1) % m, first % m, (first + 1) % m, (first + 2) % m
         for j in range(n):
             value, slope = 0.0, 0.0
-            for row in range(n if rigid else 1):
+            for row in range(layered.from_rigid.shape[1] if rigid else 1):
                 part = layered.from_rigid[j, row] if rigid else 1.0
                 at = KEPT + (row if rigid else j) * m
                 w0, w1, w2, w3 = then[at + k0], then[at + k1], then[at + k2], then[at + k3]

@@ -15,16 +15,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.contact.edge import edge_pressure
 from bearing_fmu.films.tilted.deformation import RATE, bring_over
-from bearing_fmu.films.tilted.layered import LayeredFilm, linearise
-from bearing_fmu.films.tilted.lines import SHARE
+from bearing_fmu.films.tilted.layered import LayeredFilm
+from bearing_fmu.films.tilted.layered_equations import linearise, shape_across
+from bearing_fmu.films.tilted.lines import SHARE, wrench_of
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
-from bearing_fmu.films.tilted.side_flow import side_flow
+from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import METRIC
 from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring, transpose_ring
-from bearing_fmu.result import FLOW, GAP
+from bearing_fmu.result import CONDUCTANCE, FLOW, GAP, OPEN, SHEAR
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
 Floats = NDArray[np.float64]
@@ -36,7 +38,7 @@ _PLAIN, _QUICK, _CAREFUL, _HALF = 24, 30, 400, 10
 _SLOW = 0.35
 #: Of a step of the pressure: one more would change it by about the square of that, and one more is made;
 #: where the wall is followed, and there with an old factor.
-_PRECISION, _NEWTON, _CHORD = 1e-3, 3e-3, 1e-4
+_PRECISION, _NEWTON, _CHORD = 3e-4, 3e-3, 1e-4
 #: Roughnesses by which a step presses the wall back at most, in either search.
 _STEPS = (3.0, 300.0)
 #: Rate at which the wall gives way at first, over the flow's, and where it is none.
@@ -185,6 +187,66 @@ def _search(layered: LayeredFilm, v: Floats, speed: float, ambient: float) -> in
     return NOT_CONVERGED
 
 
+@inner_kernel
+def _side_flow(layered: LayeredFilm) -> float:
+    """Flow out at both ends of the columns that let oil out, over `scales.flow`."""
+    film, total = layered.film, 0.0
+    n, m = film.face.shape[1], film.circle.shape[2]
+    low, high = layered.across[CONDUCTANCE, 0], layered.across[CONDUCTANCE, n]
+    for i in range(m):
+        total += max(low[i] * film.pressures[0, 2 * n, i], 0.0)
+        total += max(-high[i] * film.pressures[0, 3 * n, i], 0.0)
+    return total
+
+
+@inner_kernel
+def _take_edges(layered: LayeredFilm, ambient: float, result: Floats) -> None:
+    """Let the pressure fall over the outer halves of the last cells, in its bearing part and the wrench."""
+    film = layered.film
+    n, m = film.face.shape[1], film.circle.shape[2]
+    sigma, soft, part = layered.constants[1], layered.constants[2], layered.constants[5]
+    press = soft * max(ambient, 0.0)
+    for end in range(2):
+        row, face = (0, 0) if end == 0 else (n - 1, n)
+        value, by_inside, by_end = layered.outer[0, end], layered.outer[1, end], layered.outer[2, end]
+        nodal, own, ahead, behind = (
+            film.nodal[0, row],
+            film.nodal[1, row],
+            film.nodal[2, row],
+            film.nodal[3, row],
+        )
+        for i in range(m):
+            s = film.column[GAP, row, i] + soft * max(film.pressures[0, row, i] + ambient, 0.0)
+            mean, by_s, by_e = edge_pressure(
+                s / sigma, (layered.across[GAP, face, i] + press) / sigma, layered.edge
+            )
+            value[i] = 1.0 + part * (mean - 1.0)
+            by_inside[i], by_end[i] = (
+                part * by_s / sigma * nodal[i],
+                part * by_e / sigma * nodal[i],
+            )
+        for i in range(m):
+            fore = i + 1 if i + 1 < m else 0
+            given = soft if film.pressures[0, row, i] + ambient > 0.0 else 0.0
+            nodal[i] *= value[i]
+            own[i] = own[i] * value[i] + by_inside[i] * given
+            ahead[i] *= value[i]
+            behind[i] *= value[fore]
+    wrench_of(layered.sums, film.nodal[0], result)
+
+
+@inner_kernel
+def _shear(film: TiltedFilm) -> float:
+    """Integral of 1 over the open gap."""
+    m, metric, shear = film.circle.shape[2], film.rings[0, METRIC], 0.0
+    for j in range(film.face.shape[1]):
+        t, total = film.column[OPEN, j], 0.0
+        for i in range(m):
+            total += metric[i] / t[i]
+        shear += film.weights[j] * 2.0 * np.pi / m * total
+    return shear
+
+
 @stage
 def solve_layered(
     layered: LayeredFilm, q: Floats, v: Floats, speed: float, ambient: float, sigma: float, part: float,
@@ -198,6 +260,7 @@ def solve_layered(
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     shape_gap(film, None, q, sigma, part)
+    shape_across(layered, q)
     film.mixed[SHARE] = 0.0
     bring_over(layered, of)
     status = OK
@@ -206,6 +269,8 @@ def solve_layered(
     if status == OK:
         unfold(film, 0, 0, 1)
         transpose_ring(layered.blocks[0], layered.blocks[1], layered.blocks[2], m, n, width)
-        integrate(film, None, ambient, result)
-        result[FLOW] = side_flow(film, None, q, v, speed, sigma)
+        integrate(layered.sums, None, ambient, result)
+        _take_edges(layered, ambient, result)
+        result[SHEAR] = _shear(film)
+        result[FLOW] = _side_flow(layered)
     return status

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.bore.bore import least_gap
 from bearing_fmu.contact.contact import sliding_sense
+from bearing_fmu.contact.edge import edge_table
 from bearing_fmu.contact.layer import layer_table
 from bearing_fmu.contact.slice import AREA, CONTACT_RESULTS, FORCE, PRESSURE, WIPED
 from bearing_fmu.evaluate import one_kernel
@@ -27,12 +28,13 @@ from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.corners import LAYERED_AWAY, LAYERED_SPREAD, leaving, mix, rise
 from bearing_fmu.films.tilted.corner_films import tilted_films
 from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
-from bearing_fmu.films.tilted.layered import CLUSTERING, GRADING, LayeredFilm, layered_film
+from bearing_fmu.films.tilted.layered import CELLS, CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.solve import solve_tilted
 from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
+from bearing_fmu.kernels.cells import NEAR, axial_cells
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.parameters import BearingParameters
@@ -147,14 +149,16 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     first, table = layer_table(parameters)
     unit = 6.0 * parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
     aspect, columns, rows = parameters.diameter / parameters.width, parameters.columns, parameters.rows
-    basis = axial_basis(rows, CLUSTERING)
+    cells = axial_cells(max(CELLS * rows, NEAR), CLUSTERING)
     return layered_film(
-        tilted_film(columns, rows, aspect, space, CLUSTERING),
+        tilted_film(columns, rows, aspect, space),
         tilted_films(columns, rows, aspect, space, corners=False),
-        basis,
-        axial_basis(rows).interpolation(basis.nodes[:rows]),
+        cells,
+        aspect,
+        cells.means(axial_basis(rows).interpolation),
         first,
         table,
+        edge_table(parameters),
         sigma=parameters.roughness / parameters.clearance,
         compliance=parameters.layer_compliance * unit / parameters.clearance,
         hardness=parameters.layer_hardness / unit,
