@@ -26,12 +26,12 @@ from bearing_fmu.evaluate import one_kernel
 from bearing_fmu.film import Solver
 from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.corners import LAYERED_AWAY, LAYERED_SPREAD, leaving, mix, rise
-from bearing_fmu.films.tilted.corner_films import tilted_films
+from bearing_fmu.films.tilted.corner_films import GRIDS, PLACE, SHARE, USUAL, tilted_films
 from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
 from bearing_fmu.films.tilted.layered import CELLS, CLUSTERING, GRADING, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
-from bearing_fmu.films.tilted.solve import solve_tilted
+from bearing_fmu.films.tilted.solve import solve_one, solve_tilted
 from bearing_fmu.films.tilted.workspace import STOCK, tilted_film
 from bearing_fmu.kernels.axial import axial_basis
 from bearing_fmu.kernels.cells import NEAR, axial_cells
@@ -117,6 +117,18 @@ def _solve_soft(
     return status
 
 
+@inner_kernel
+def _remember_rigid(film: LayeredFilm, scales: Scales, q: Floats, v: Floats, speed: float) -> int:
+    """Note how far the film on a rigid bore would press the wall back, on the usual grid."""
+    films, status = film.rigid, OK
+    if films.shares[USUAL, SHARE] == 0.0 and films.shares[int(films.shares[GRIDS, 0]), PLACE] >= 0.0:
+        # only the film of a corner was solved, which keeps its own grid
+        status = solve_one(films.usual, None, scales, q, v, speed, 1.0, USUAL, film.stiff)
+    if status == OK:
+        remember(film, films.usual, OF_RIGID, v, scales.ambient)
+    return status
+
+
 @stage
 def _solve_on_layer(
     film: LayeredFilm, scales: Scales, q: Floats, v: Floats, speed: float, result: Floats, contact: Floats
@@ -130,8 +142,7 @@ def _solve_on_layer(
         share = _gives_way(film, q, gap, result, film.change)
         film.change[8] = share
         if share == 0.0:
-            remember(film, film.rigid.usual, OF_RIGID, v, scales.ambient)
-            return OK
+            return _remember_rigid(film, scales, q, v, speed)
         copy(result, film.stiff)
     status = _solve_soft(film, scales, q, v, speed, result, contact)
     if status != OK:
@@ -152,7 +163,7 @@ def _prepare(parameters: BearingParameters, space: dict[str, Any]) -> LayeredFil
     cells = axial_cells(max(CELLS * rows, NEAR), CLUSTERING)
     return layered_film(
         tilted_film(columns, rows, aspect, space),
-        tilted_films(columns, rows, aspect, space, corners=False),
+        tilted_films(columns, rows, aspect, space),
         cells,
         aspect,
         cells.means(axial_basis(rows).interpolation),

@@ -58,7 +58,7 @@ def _share(films: TiltedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats,
 
 
 @kernel
-def _solve_one(
+def solve_one(
     film: TiltedFilm,
     bore: Bore,
     scales: Scales,
@@ -126,10 +126,10 @@ def solve_tilted(
         part = SPREAD if grid == SPREAD_OUT else (shares[SHARP, CHANGE] if grid == SHARP else 1.0)
         at, found = int(shares[grid, PLACE]), films.shares[grid, RESULT:]
         if at < 0:
-            status = _solve_one(films.usual, bore, scales, q, v, speed, part, grid, found)
+            status = solve_one(films.usual, bore, scales, q, v, speed, part, grid, found)
         else:
             film = film_in(films.store, at, int(shares[grid, COLUMNS]), int(shares[grid, ROWS]))
-            status = _solve_one(film, bore, scales, q, v, speed, part, grid, found)
+            status = solve_one(film, bore, scales, q, v, speed, part, grid, found)
         if grid == SHARP:
             if status != OK:  # the peak of the usual grid is an answer, too
                 shares[SHARP, SHARE], status = 0.0, OK
