@@ -35,6 +35,8 @@ _TILTED = (0.65, 0.85)
 # Likewise, of the gap at the narrower end over its slope along the axis, within which the peak lies so close
 # to the end that few rows do not resolve it.
 _CROWDED = (0.2, 0.35)
+# Of that gap in roughnesses: below the first one asperities bear.
+_APART = (3.0, 6.0)
 # Of the cosine, and what it takes off the grading of the grid on which that peak is looked for.
 _LEADS, _LESS = (0.05, 0.2), 0.2
 
@@ -97,20 +99,24 @@ def turning_round(q: Floats, v: Floats, speed: float, change: Floats) -> float:
 
 
 @inner_kernel
-def crowded(q: Floats, v: Floats, speed: float) -> tuple[float, float]:
-    """How far the pressure crowds at the narrower end, 0 to 1, and the part of the grading that serves."""
+def crowded(q: Floats, v: Floats, speed: float, sigma: float) -> tuple[float, float]:
+    """How far the pressure crowds at the narrower end, 0 to 1, and the part of the grading that serves.
+
+    Not where solids of roughness `sigma` touch there: a rigid wall's peak is of no real metal.
+    """
     end = 1.0 if (q[0] * q[3] - q[1] * q[2]) >= 0.0 else -1.0
     x, y = q[0] + end * q[3], q[1] - end * q[2]
     e = np.sqrt(x * x + y * y)
     slope = end * (x * q[3] - y * q[2])
     gap = max(1.0 - e, 0.0)
-    if slope <= 0.0 or gap * e >= _CROWDED[1] * slope:
+    apart = rise(gap / sigma, _APART)[0] if sigma > 0.0 else 1.0
+    if slope <= 0.0 or apart == 0.0 or gap * e >= _CROWDED[1] * slope:
         return 0.0, 1.0
     ux, uy = v[0] + end * v[3], v[1] - end * v[2]
     u, w = 2.0 * ux + speed * y, 2.0 * uy - speed * x
     drive = u * u + w * w
     away = -2.0 * (ux * x + uy * y) / (np.sqrt(drive) * e) if drive > 0.0 else 0.0
-    return 1.0 - rise(gap * e / slope, _CROWDED)[0], 1.0 - _LESS * rise(away, _LEADS)[0]
+    return apart * (1.0 - rise(gap * e / slope, _CROWDED)[0]), 1.0 - _LESS * rise(away, _LEADS)[0]
 
 
 @inner_kernel

@@ -162,17 +162,18 @@ def time_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
 def scale_problems(scenario: Scenario, train: Train) -> Iterator[Problem]:
     """Yield speeds and lengths far beyond the train's own, which no run would come to: in rev/min or um."""
     fastest = FASTEST * train.speed
-    widest = WIDEST * max((seat.clearance for seat in train.bearings if seat.has_film), default=math.inf)
+    # without a film there is no clearance, and a journal may go anywhere
+    widest = WIDEST * max(seat.clearance if seat.has_film else math.inf for seat in train.bearings)
     speed = f"allowed is at most {FASTEST:g} times the train's, {fastest:.4g} rad/s; did you give rev/min?"
     length = f"allowed is at most {WIDEST:g} times the largest clearance, {widest:.3g} m; did you give um?"
     limits = {"speed": (fastest, speed), "vibration": (widest, length), "least_gap": (widest, length)}
     course = scenario.rotation.course if scenario.rotation is not None else None
-    if course and (top := max(value for _, value in course)) > fastest:
+    if course and (top := max((value for _, value in course), key=abs)) and abs(top) > fastest:
         yield ("rotation", "course"), f"rotation.course: {top!r}; {speed}"
     for index, event in enumerate(scenario.events):
         for key, (most, words) in limits.items():
             value = getattr(event, key, None)
-            if value is not None and value > most:
+            if value is not None and abs(value) > most:
                 yield ("events", index, key), f"events.{index}.{key} = {value!r}; {words}"
 
 

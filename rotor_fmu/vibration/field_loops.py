@@ -20,6 +20,12 @@ def _product(row: Array, vector: Array) -> float:
     return total
 
 
+@inlined
+def _beyond(value: float, largest: float) -> bool:
+    """Whether it is larger; what is not a number is beyond all, as numpy has it."""
+    return value > largest or (math.isnan(value) and not math.isnan(largest))
+
+
 @fused
 def fields_at(
     of_x: Array,
@@ -63,8 +69,8 @@ def fields_at(
                 fields[3, k] = square
     moved = bent = 0
     for k in range(nodes):
-        moved = k if fields[2, k] > fields[2, moved] else moved
-        bent = k if fields[3, k] > fields[3, bent] else bent
+        moved = k if _beyond(fields[2, k], fields[2, moved]) else moved
+        bent = k if _beyond(fields[3, k], fields[3, bent]) else bent
     for k in range(nodes):
         fields[2, k], fields[3, k] = math.sqrt(fields[2, k]), math.sqrt(fields[3, k])
     return moved, bent

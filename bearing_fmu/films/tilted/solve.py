@@ -50,7 +50,7 @@ def _share(films: TiltedFilms, bore: Bore, scales: Scales, q: Floats, v: Floats,
         if scales.ruptures == 0:
             shares[TURNED, SHARE] = turning_round(q, v, speed, shares[TURNED, CHANGE:PLACE])
         if shares[SHARP, PLACE] >= 0.0:
-            shares[SHARP, SHARE], shares[SHARP, CHANGE] = crowded(q, v, speed)
+            shares[SHARP, SHARE], shares[SHARP, CHANGE] = crowded(q, v, speed, scales.sigma)
     if max(shares[SPREAD_OUT, SHARE], shares[TURNED, SHARE]) == 1.0:
         shares[USUAL, SHARE] = 0.0
     if shares[TURNED, SHARE] == 1.0:

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from orchestrator.master.coupling import rates as known
 from orchestrator.master.coupling.base import Advance, Errors
-from orchestrator.master.coupling.rate_step import find_due, measure, settle
+from orchestrator.master.coupling.rate_step import find_due, settle
 from orchestrator.master.coupling.rates import BEFORE, KNOWN, OWN, SIZE, SPAN, STANDS, WIDTH
 from orchestrator.master.system import System, Wiring
 
@@ -166,7 +166,7 @@ class Multirate:
                 return room
         room = self._room = _Room(len(system.bearings))  # of another system, or the first step
         room.rates[:, STANDS], room.rates[:, known.INTERVAL] = time, step
-        measure(system.forces, system.loads, 0.0, room.rates, room.size)
+        known.measure(system.forces, system.loads, 0.0, room.rates, room.size)
         room.rates[:, SIZE] = room.size
         self._known, self._taken = True, False
         system.rotor_group.feed()

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from fmus.kernels.loops import compiled
-from orchestrator.master.coupling.rates import SIZE, due_at, intervals_after, relative
+from orchestrator.master.coupling.rates import due_at, intervals_after, measure, relative
 from orchestrator.master.interface import defects
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-LIGHT = 0.3
-"""Share of the mean static load that is the least size."""
 
 
 @compiled
@@ -36,17 +31,6 @@ def find_due(
     """As `rates.due_at`; overwrite `before` with the tangents, which evaluations then change."""
     due_at(end, tolerance, all_of_them, rates, tangents, where, motion, levers, again, moved, due)
     before[:] = tangents
-
-
-@compiled
-def measure(forces: Array, loads: Array, faded: float, rates: Array, size: Array) -> None:
-    """Overwrite sizes with the largest forces of late in N.
-
-    Those are a force now (n, 4), a share of the last size that is left of it, and one of the load.
-    """
-    for b in range(len(size)):
-        force = math.hypot(forces[b, 0], forces[b, 1])
-        size[b] = max(force, max(faded * rates[b, SIZE], LIGHT * loads[b]))
 
 
 @compiled

@@ -16,6 +16,9 @@ from fmus.kernels.loops import compiled, inlined
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+LIGHT = 0.3
+"""Share of the mean static load that is the least size."""
+
 KNOWN = ("stands", "interval", "bend", "size", "span")
 """Columns of what is known of bearings.
 
@@ -280,3 +283,14 @@ def intervals_after(
         after[b, STANDS], after[b, SPAN], after[b, INTERVAL] = end, span, interval
         after[b, BEND] = max(bend, FADES * rates[b, BEND])
         after[b, BEFORE:] = tangents[b]
+
+
+@compiled
+def measure(forces: Array, loads: Array, faded: float, rates: Array, size: Array) -> None:
+    """Overwrite sizes with the largest forces of late in N.
+
+    Those are a force now (n, 4), a share of the last size that is left of it, and one of the load.
+    """
+    for b in range(len(size)):
+        force = math.hypot(forces[b, 0], forces[b, 1])
+        size[b] = max(force, max(faded * rates[b, SIZE], LIGHT * loads[b]))

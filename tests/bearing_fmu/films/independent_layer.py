@@ -117,7 +117,7 @@ def solve(
         back = soft * np.maximum(pressure, 0.0)
         after = np.roll(back, -1, axis=0)
         flow = _flow(asperities.gap((gap_f + 0.5 * (back + after)) / sigma)) * sigma**3
-        wedge = sigma * _open(asperities.gap((gap_f + 0.6 * back + 0.4 * after) / sigma))
+        wedge = sigma * _open(asperities.gap((gap_f + 0.75 * back + 0.25 * after) / sigma))
         around = d_z * (speed * wedge - flow * (np.roll(pressure, -1, axis=0) - pressure) / ahead[:, None])
         edge = np.zeros((m, 1))
         along = np.concatenate((edge, pressure, edge), axis=1)

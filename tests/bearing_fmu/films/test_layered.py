@@ -84,7 +84,7 @@ def test_recorded_states_have_the_answer_of_two_doublings(grid, finest):
 def test_an_independent_solution_agrees(index):
     q, v = RECORDED[index]
     film = make_film("v1", replace(LAYER, columns=96, rows=16)).respond(q, v, SPEED)
-    other = solve(LAYER, q, v, SPEED, (96, 32))
+    other = solve(LAYER, q, v, SPEED, (192, 32))
     force = film.wrench[:2] - film.contact_wrench[:2]
     np.testing.assert_allclose(force, other.film_force, atol=0.01 * np.linalg.norm(force))
     assert film.contact_force == pytest.approx(other.contact_force, rel=0.06)

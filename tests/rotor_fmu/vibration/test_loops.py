@@ -110,6 +110,9 @@ def test_fields_and_where_they_are_largest(rng, loop):
     ]  # fmt: skip
     np.testing.assert_allclose(fields, expected, rtol=1e-12)
     assert found == (np.argmax(expected[2]), np.argmax(expected[3]))
+    moments[0, nodes + 3] = np.nan
+    found = loop(field_loops, "fields_at")(of_x, of_y, in_x, in_y, static, moments, flexibility, fields)
+    assert found[1] == 3, "a stress that is not a number is not passed over"
 
 
 def test_no_step_waits_for_the_compiler():
