@@ -8,6 +8,7 @@ from hypothesis import assume, event, example, given
 from hypothesis import strategies as st
 
 from bearing_fmu.film import FilmStatus
+from bearing_fmu.films.tilted.corner_films import CORNERS, SPREAD_OUT
 from tests.bearing_fmu.bearings import force_unit, lever, plain, respond
 from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 from tests.properties.examples import examples
@@ -15,6 +16,7 @@ from tests.properties.journals import DEPTHS, bearings, film, positions, rates, 
 
 pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
+CORNER_COLUMNS = CORNERS[SPREAD_OUT][0]
 ANY = st.floats(allow_nan=True, allow_infinity=True)
 
 
@@ -74,12 +76,12 @@ def test_outputs_belong_together(depth, parameters, q, v, speed):
 @given(DEPTHS, bearings(), positions(deepest=1.02), rates(), speeds(), st.integers(1, 60))
 @examples(100)
 def test_turning_state_and_load_turns_the_wrench(depth, parameters, q, v, speed, cells):
-    """By whole cells of the grid to rounding."""
+    """By whole cells of the grid, and of that of the corners of accuracy, to rounding."""
     bearing = film(depth, parameters)
     inside = 1.0 - max(np.hypot(q[0] + s * q[3], q[1] - s * q[2]) for s in (-1.0, 1.0))
     assume(inside * parameters.clearance > parameters.deepest_gap + 1e-4 * parameters.clearance)
     grid = max(2 * parameters.columns, 48) if depth == "v3" else parameters.columns
-    angle = 2.0 * math.pi / grid * cells
+    angle = 2.0 * math.pi / math.gcd(grid, max(grid, CORNER_COLUMNS)) * cells
     one, other = respond(bearing, q, v, speed), respond(bearing, turned(q, angle), turned(v, angle), speed)
     arms = np.array([1.0, 1.0, 0.5 * parameters.width, 0.5 * parameters.width])
     size = np.linalg.norm(one.wrench / arms)
