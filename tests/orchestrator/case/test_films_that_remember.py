@@ -66,7 +66,7 @@ def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
     if example == "small":
-        assert whole.record["contact_force"].values.max() > 5e4
+        assert whole.record["contact_force"].values.max() > 3e3
         assert whole.record.attrs["rejected_steps"] > 0
     if film.get("boundary") == "jfo":
         full, fed = whole.record["full_film"].values, whole.record["oil_fed"].values
