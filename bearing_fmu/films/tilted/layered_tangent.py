@@ -110,7 +110,7 @@ def _press_end(
     layered: LayeredFilm, end: int, q: Floats, ambient: float, grip: float, scale: Floats, pressed: Floats,
     contact: Floats,
 ) -> bool:  # fmt: skip
-    """As `_press`, on the outer half of a last cell, where the pressure falls as `contact.layer.leak` has it.
+    """As `_press`, on the outer half of a last cell, where the pressure falls as `contact.edge` has it.
 
     The slope is that by the gap in the middle of the cell, and then by the one at its end.
     """

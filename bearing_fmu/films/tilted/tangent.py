@@ -82,8 +82,8 @@ def _solve_adjoints(film: TiltedFilm, bore: Bore) -> None:
 
 
 @inner_kernel
-def prepare(film: TiltedFilm, speed: float) -> None:
-    """Derivatives of the residual by gap, metric and squeezed volume, in the stack's rows."""
+def prepare_rows(film: TiltedFilm, speed: float) -> None:
+    """Derivatives by gap, metric and squeezed volume of what rows hold and what flows around."""
     n, m = film.face.shape[1], film.circle.shape[2]
     pressure = film.pressures[0]
     by_gap, by_metric = film.forcing[BY_GAP], film.forcing[BY_METRIC]
@@ -101,6 +101,15 @@ def prepare(film: TiltedFilm, speed: float) -> None:
             flow = conductance[i] * difference[i]
             gap[i] = t1[i] * (weight * speed - power[i] * flow / t[i])
             metric[i] = flow
+
+
+@inner_kernel
+def prepare(film: TiltedFilm, speed: float) -> None:
+    """Derivatives of the residual by gap, metric and squeezed volume, in the stack's rows."""
+    prepare_rows(film, speed)
+    n, m = film.face.shape[1], film.circle.shape[2]
+    pressure = film.pressures[0]
+    by_gap, by_metric = film.forcing[BY_GAP], film.forcing[BY_METRIC]
     for j in range(n + 2):
         t, t1, conductance = film.column[OPEN, j], film.column[OPEN_1, j], film.column[CONDUCTANCE, j]
         slope, power = pressure[2 * n + j], film.column[POWER, j]
@@ -123,33 +132,49 @@ def gap_change(film: TiltedFilm, bore: Bore, q: Floats, k: int, side: int, z: fl
 
 
 @inner_kernel
-def residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
-    """Tangent of the residual along q_k."""
-    n, m = film.face.shape[1], film.circle.shape[2]
-    tangent, by_gap, by_metric = film.forcing[TANGENT], film.forcing[BY_GAP], film.forcing[BY_METRIC]
-    change, dcos, dsin = film.forcing[3, 0, :m], film.forcing[3, 1], film.forcing[3, 2]
+def turn_faces(film: TiltedFilm, k: int) -> None:
+    """How the differences of cosine and sine over a column change along q_k, as the grid moves."""
+    m, dcos, dsin = film.circle.shape[2], film.forcing[3, 1], film.forcing[3, 2]
     ring = film.rings[1]
     cos, sin, motion = ring[COS], ring[SIN], ring[MOTION + k]
     for i in range(m):
         back = i - 1 if i > 0 else m - 1
         dcos[i] = -sin[i] * motion[i] + sin[back] * motion[back]
         dsin[i] = cos[i] * motion[i] - cos[back] * motion[back]
-    along, around = film.rings[0, STRETCHING + k], film.rings[1, STRETCHING + k]
+
+
+@inner_kernel
+def row_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int, j: int) -> None:
+    """Tangent along q_k of what row j holds and of what flows around in it; its dH/dq_k is known."""
+    n, m = film.face.shape[1], film.circle.shape[2]
+    tangent, by_gap, by_metric = film.forcing[TANGENT], film.forcing[BY_GAP], film.forcing[BY_METRIC]
+    change, dcos, dsin = film.forcing[3, 0, :m], film.forcing[3, 1], film.forcing[3, 2]
+    around = film.rings[1, STRETCHING + k]
+    ux = v[0] + v[3] * film.nodes[j]
+    uy = v[1] - v[2] * film.nodes[j]
+    gap, metric, out = by_gap[j], by_metric[j], tangent[j]
+    for i in range(m):
+        out[i] = gap[i] * change[i] + metric[i] * (uy * dcos[i] - ux * dsin[i])
+    gap_change(film, bore, q, k, 1, film.nodes[j], change)
+    gap, metric, out = by_gap[n + j], by_metric[n + j], tangent[n + j]
+    for i in range(m):
+        out[i] = gap[i] * change[i] + metric[i] * around[i]
+
+
+@inner_kernel
+def residual_tangent(film: TiltedFilm, bore: Bore, q: Floats, v: Floats, k: int) -> None:
+    """Tangent of the residual along q_k."""
+    n, m = film.face.shape[1], film.circle.shape[2]
+    tangent, by_gap, by_metric = film.forcing[TANGENT], film.forcing[BY_GAP], film.forcing[BY_METRIC]
+    change, along = film.forcing[3, 0, :m], film.rings[0, STRETCHING + k]
+    turn_faces(film, k)
     for j in range(n + 2):
         gap_change(film, bore, q, k, 0, film.nodes[j], change)
         gap, metric, out = by_gap[2 * n + j], by_metric[2 * n + j], tangent[2 * n + j]
         for i in range(m):
             out[i] = gap[i] * change[i] + metric[i] * along[i]
         if j < n:
-            ux = v[0] + v[3] * film.nodes[j]
-            uy = v[1] - v[2] * film.nodes[j]
-            gap, metric, out = by_gap[j], by_metric[j], tangent[j]
-            for i in range(m):
-                out[i] = gap[i] * change[i] + metric[i] * (uy * dcos[i] - ux * dsin[i])
-            gap_change(film, bore, q, k, 1, film.nodes[j], change)
-            gap, metric, out = by_gap[n + j], by_metric[n + j], tangent[n + j]
-            for i in range(m):
-                out[i] = gap[i] * change[i] + metric[i] * around[i]
+            row_tangent(film, bore, q, v, k, j)
 
 
 @inner_kernel

@@ -61,12 +61,13 @@ def test_largest_pressure(row):
 
     See `tests.bearing_fmu.films.test_peaks`, which holds M1 against an independent solution within 0.5 %.
     """
-    parameters = plain(float(row["L_over_D"]))
+    fine = {"columns": 128, "rows": 20} if row["case"] == "M1" else {}
+    parameters = plain(float(row["L_over_D"]), **fine)
     q = [float(row[k]) for k in ("x", "y", "tx", "ty")]
     v = [float(row[k]) for k in ("xd", "yd", "txd", "tyd")]
     peak = respond(make_film("v1", parameters), q, v).p_max
     unit = parameters.viscosity * (parameters.radius / parameters.clearance) ** 2
-    assert peak / unit == pytest.approx(float(row["Pmax"]), rel=0.016 if row["case"] == "M1" else 0.0065)
+    assert peak / unit == pytest.approx(float(row["Pmax"]), rel=0.015 if row["case"] == "M1" else 0.0065)
 
 
 def sommerfeld_and_angle(aspect, eccentricity, depth="v1", fed_at_widest_gap=False, **changes):
