@@ -43,10 +43,10 @@ def killed(stage, simulated):
 def lined(folder):
     """The small train with white metal on its shells, which it touches when a heavy blade breaks off."""
     base = files("rotor_fmu") / "data" / "small" / "train.toml"
-    layer = 'layer_thickness = "2 mm"\nlayer_modulus = 53e9\n'
+    layer = 'layer_thickness = "1 mm"\nlayer_modulus = 53e9\n'
     path = folder / "lined.toml"
     path.write_text(f"base = '{base}'\nname = \"lined\"\n\n[every_bearing]\n{layer}")
-    return {"train": str(path), "event": SHORT["event"] | {"unbalance": 12.0}}
+    return {"train": str(path), "event": SHORT["event"] | {"unbalance": 13.0}, "end": 8.8e-3}
 
 
 def scenario_of(example, film, **changes):
@@ -66,7 +66,7 @@ def test_the_record_is_the_same_however_it_came_about(example, film, tmp_path):
     assert whole.outcome.ok, whole.message
     assert np.ptp(whole.record["force"].values) > 1e3
     if example == "small":
-        assert whole.record["contact_force"].values.max() > 3e3
+        assert whole.record["contact_force"].values.max() > 5e4
         assert whole.record.attrs["rejected_steps"] > 0
     if film.get("boundary") == "jfo":
         full, fed = whole.record["full_film"].values, whole.record["oil_fed"].values
