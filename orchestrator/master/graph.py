@@ -81,17 +81,6 @@ class Group:
         """Move the newest outputs along the connections into the inputs of these units."""
         self.give(self._graph.outputs[self._sources])
 
-    def feed_some(self, chosen: Sequence[int]) -> None:
-        """Move the newest outputs into the inputs of the units of these numbers."""
-        start = perf_counter()
-        inputs, outputs = self._graph.inputs, self._graph.outputs
-        for k in chosen:
-            targets, sources, linked = self._moves[k]
-            inputs[targets] = outputs[sources]
-            if linked is not None:
-                linked.set()
-        self.exchange_time += perf_counter() - start
-
     def give(self, values: NDArray[np.float64]) -> None:
         """Set the connected inputs of these units to values, in the order of `received`."""
         start = perf_counter()
@@ -134,13 +123,30 @@ class Group:
         finally:
             self.step_time += perf_counter() - start
 
-    def step_some(self, chosen: Sequence[int], times: Sequence[float], steps: Sequence[float]) -> None:
-        """Carry out in each unit of these numbers a macro step of its own, as `step`."""
+    def carry(self, chosen: Sequence[int], times: Sequence[float], steps: Sequence[float]) -> None:
+        """Feed the units of these numbers, carry out in each a macro step of its own, and read their outputs.
+
+        Raises
+        ------
+        UnitError
+            As `step`.
+        """
         start = perf_counter()
+        inputs, outputs = self._graph.inputs, self._graph.outputs
+        for k in chosen:
+            targets, sources, linked = self._moves[k]
+            inputs[targets] = outputs[sources]
+            if linked is not None:
+                linked.set()
+        fed = perf_counter()
         try:
             self._threads.step_some(chosen, times, steps)
         finally:
-            self.step_time += perf_counter() - start
+            stepped = perf_counter()
+            self.step_time += stepped - fed
+        for k in chosen:
+            self._gets[k]()
+        self.exchange_time += fed - start + perf_counter() - stepped
 
     def fetch(self, chosen: Iterable[int] | None = None) -> None:
         """Read the outputs of these units, or of those of these numbers."""

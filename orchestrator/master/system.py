@@ -64,6 +64,10 @@ class System:
         q and v of each housing, the rotor's outputs; None where they stand rigidly.
     responses : ndarray (bearings, 58)
         The bearings' outputs, columns as in `RESPONSE`.
+    forces : ndarray (bearings, 4)
+        Of those the wrench of each bearing on the rotor.
+    tangent_rows, squares : ndarray (bearings, 32), (bearings, 2, 4, 4)
+        Of those stiffness K and damping C by rows, and as matrices.
     laws : ndarray (bearings, 36)
         F0, K, C that the rotor was given last.
     groups : tuple of Group
@@ -107,6 +111,8 @@ class System:
         if moving:
             self.housings = outputs[n * _PER_JOURNAL : 2 * n * _PER_JOURNAL].reshape(n, _PER_JOURNAL)
         self.responses: Array = outputs[len(rotor_outputs) :].reshape(n, len(_BEARING_OUTPUTS))
+        self.forces, self.tangent_rows = self.responses[:, _FORCE], self.responses[:, _TANGENT]
+        self.squares: Array = self.tangent_rows.reshape(-1, 2, 4, 4)
         turned = slice(1 + n * _PER_LAW, len(rotor_inputs))
         self.laws: Array = inputs[1 : turned.start].reshape(n, _PER_LAW)
         self._rotor_speed = inputs[:1]
@@ -133,21 +139,6 @@ class System:
     def motion(self) -> Array:
         """Motion of each journal in its housing (bearings, 8): `journals` itself where that is rigid."""
         return self.journals if self.housings is None else self.journals - self.housings
-
-    @property
-    def forces(self) -> Array:
-        """Wrench of each bearing on the rotor (bearings, 4), a view."""
-        return self.responses[:, _FORCE]
-
-    @property
-    def squares(self) -> Array:
-        """Stiffness K and damping C that the bearings returned last (bearings, 2, 4, 4)."""
-        return self.responses[:, _TANGENT].reshape(-1, 2, 4, 4)
-
-    @property
-    def tangent_rows(self) -> Array:
-        """The same by rows (bearings, 32), a view."""
-        return self.responses[:, _TANGENT]
 
     @property
     def tangents(self) -> Array:

@@ -37,7 +37,8 @@ class StepThreads:
 
     def step_some(self, chosen: Iterable[int], times: Sequence[float], steps: Sequence[float]) -> None:
         """Carry out in each of the chosen units a macro step of its own, as `step_each`."""
-        self.step_each([(*self._units[k], times[k], steps[k]) for k in chosen])
+        orders = zip(chosen, times, steps, strict=True)
+        self.step_each([(*self._units[k], time, step) for k, time, step in orders])
 
     def step_each(self, orders: _Orders) -> None:
         """Carry out orders.
@@ -47,6 +48,9 @@ class StepThreads:
         UnitError
             From the first unit, in their order, that does not accept the step.
         """
+        if not self._workers:
+            _raise_first(_step_all(orders))
+            return
         count = max(1, min(1 + len(self._workers), len(orders)))
         busy = self._workers[: count - 1]
         for k, worker in enumerate(busy, 1):
@@ -54,8 +58,7 @@ class StepThreads:
         errors = _step_all(orders[::count])
         for worker in busy:
             errors |= worker.done.get()
-        if errors:
-            raise errors[min(errors)]
+        _raise_first(errors)
 
     def close(self) -> None:
         """End the threads."""
@@ -77,6 +80,11 @@ class _Worker:
     def _work(self) -> None:
         while (orders := self.orders.get()) is not None:
             self.done.put(_step_all(orders))
+
+
+def _raise_first(errors: _Errors) -> None:
+    if errors:
+        raise errors[min(errors)]
 
 
 def _step_all(orders: _Orders) -> _Errors:

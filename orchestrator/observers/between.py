@@ -13,18 +13,27 @@ With s the share of the time from one evaluation to the next, held the values of
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from orchestrator.master.system import RESPONSE, law_wrenches
+from orchestrator.observers.waiting import (
+    BEARING,
+    FIRST_RECORD,
+    LAST_RECORD,
+    ROOM,
+    Passed,
+    note_evaluations,
+    note_record,
+)
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Numbers = NDArray[np.intp]
-Asked = Callable[[Numbers], Array]
-"""What bearings of these numbers tell, a row each."""
+Told = tuple[Array, Array]
+"""What all bearings tell: outputs, and details that only some films have, (n, i) and (n, j)."""
 
 WORDS = (
     "wrenches: the law of the evaluation before and the square of the share of time of what it missed at "
@@ -69,33 +78,6 @@ class Bores:
         return clearance - np.maximum(*ends), clearance - np.hypot(x, y)
 
 
-class _Passed(NamedTuple):
-    """Bearings, (k,), that were evaluated where records had waited for them.
-
-    Attributes
-    ----------
-    bearing, first, last : ndarray of int
-        Their numbers, the first record that waited, and that behind the last.
-    start, end : ndarray
-        When they were evaluated before and now, in s.
-    before, after : ndarray (k, outputs)
-        What they told.
-    motion, motion_after, offsets : ndarray (k, 8), (k, 8), (k, 4)
-        Where they stood, and the centres of their bores.
-    """
-
-    bearing: Numbers
-    first: Numbers
-    last: Numbers
-    start: Array
-    end: Array
-    before: Array
-    after: Array
-    motion: Array
-    motion_after: Array
-    offsets: Array
-
-
 class Between:
     """Holds what bearings told last, and what follows between then and their next evaluation.
 
@@ -112,40 +94,37 @@ class Between:
         When each was evaluated last, in s.
     first : ndarray of int (bearings,)
         Its first record that waits, else the number of records.
-    filled : int
-        Pairs of record and bearing that waited and are complete.
     """
 
     def __init__(self, bores: Bores, outputs: int) -> None:
         count = len(bores.clearance)
         self._bores = bores
-        self.stands, self.first, self.filled = np.zeros(count), np.zeros(count, dtype=np.intp), 0
+        self.stands, self.first = np.zeros(count), np.zeros(count, dtype=np.intp)
         self._values, self._motion = np.zeros((count, outputs)), np.zeros((count, 8))
-        self._passed: list[_Passed] = []
+        self._passed, self._held, self._filled = Passed.room(ROOM + count, outputs), 0, 0
 
-    def kept(self, row: int, waits: Mask, told: Asked, motion: Asked) -> None:
-        """Note a record, for which some bearings wait, with what those tell and their motion there."""
-        if waits.any():
-            fresh = (waits & (self.first == row)).nonzero()[0]
-            if len(fresh):
-                self._values[fresh], self._motion[fresh] = told(fresh), motion(fresh)
-            self.first[~waits] = row + 1
-        else:
-            self.first[:] = row + 1
+    def kept(self, row: int, waits: Mask, told: Told, motion: Array) -> None:
+        """Note a record, for which some bearings wait, with what all tell and where they stand."""
+        note_record(row, waits, self.first, self._values, self._motion, *told, motion)
 
-    def evaluated(self, done: Mask, end: float, rows: int, told: Asked, motion: Asked) -> int:
+    def evaluated(self, done: Mask, end: float, rows: int, told: Told, motion: Array) -> bool:
         """Note that these bearings stand at `end`, where there are so many records.
 
-        Returns the number of steps with evaluations that end a wait and are to be looked at, see `fill`.
+        Returns whether enough waits have ended to look at them, see `fill`.
         """
-        if len(k := (done & (self.first < rows)).nonzero()[0]):
-            last, now = np.full(len(k), rows), np.full(len(k), end)
-            then = self._values[k], told(k), self._motion[k], motion(k), self._bores.offsets[k]
-            self._passed.append(_Passed(k, self.first[k], last, self.stands[k], now, *then))
-            self.filled += int((last - self.first[k]).sum())
-            self.first[k] = rows
-        self.stands[done] = end
-        return len(self._passed)
+        about = self.stands, self.first, self._values, self._motion, *told, motion, self._bores.offsets
+        self._held = note_evaluations(done, end, rows, *about, *self._passed, self._held)
+        return self._held >= ROOM
+
+    def waits(self, rows: int) -> bool:
+        """Whether any of so many records waits."""
+        return self.complete < rows
+
+    @property
+    def filled(self) -> int:
+        """Pairs of record and bearing that waited and are complete."""
+        numbers = self._passed.numbers[: self._held]
+        return self._filled + int((numbers[:, LAST_RECORD] - numbers[:, FIRST_RECORD]).sum())
 
     def fill(
         self, times: Array, motion: Callable[[Numbers, Numbers], Array]
@@ -159,18 +138,18 @@ class Between:
         motion : callable
             q and v of the journals in their housings, (m, 8), in records of bearings.
         """
-        passed, self._passed = self._passed, []
-        if not passed:
+        if not self._held:
             return None
-        parts: Any = zip(*passed, strict=True)
-        all_of_them = _Passed(*(np.concatenate(part) for part in parts))
-        counts = all_of_them.last - all_of_them.first
+        passed = self._passed.rows(slice(self._held))
+        self._filled, self._held = self.filled, 0
+        first, last, bearing = passed.numbers.T
+        counts = last - first
         each = np.repeat(np.arange(len(counts)), counts)
-        parts = (part[each] for part in all_of_them)
-        found = _Passed(*parts)
-        rows = found.first + np.arange(len(each)) - np.repeat(np.cumsum(counts) - counts, counts)
-        share = (times[rows] - found.start) / (found.end - found.start)
-        return rows, found.bearing, self._told(found, share, motion(rows, found.bearing))
+        rows = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(counts) - counts, counts)
+        found = passed.rows(each)
+        start, end = found.instants.T
+        share = (times[rows] - start) / (end - start)
+        return rows, bearing[each], self._told(found, share, motion(rows, bearing[each]))
 
     @property
     def complete(self) -> int:
@@ -189,20 +168,19 @@ class Between:
         self.first[:], self.stands[:] = arrays["between.first"], arrays["between.stands"]
         self._values[:], self._motion[:] = arrays["between.values"], arrays["between.motion"]
         self._bores.offsets[:] = arrays["between.offsets"]
-        self.filled, self._passed = int(arrays["between.filled"]), []
+        self._filled, self._held = int(arrays["between.filled"]), 0
         return self.complete
 
-    def _told(self, found: _Passed, share: Array, motion: Array) -> Array:
+    def _told(self, found: Passed, share: Array, motion: Array) -> Array:
         """What bearings told at shares, (m,), of the time between evaluations, in motion (m, 8)."""
-        bearing, before, after = found.bearing, found.before, found.after
+        bearing, before, after = found.numbers[:, BEARING], found.told[:, 0], found.told[:, 1]
+        motion_before, motion_after = found.motion[:, 0], found.motion[:, 1]
         result = before + share[:, None] * (after - before)
         law = before[:, _LAW]
-        missed = after[:, _FORCE] - law_wrenches(law, found.motion_after)
+        missed = after[:, _FORCE] - law_wrenches(law, motion_after)
         result[:, _FORCE] = law_wrenches(law, motion) + share[:, None] ** 2 * missed
         result[:, _NEARER] = np.where(share < 0.5, before[:, _NEARER], after[:, _NEARER])
-        ways = [
-            self._bores.gaps(bearing, x, found.offsets) for x in (found.motion, motion, found.motion_after)
-        ]
+        ways = [self._bores.gaps(bearing, x, found.offsets) for x in (motion_before, motion, motion_after)]
         over, centre = (np.array(kind) for kind in zip(*ways, strict=True))
         clearance = self._bores.clearance[bearing]
         least, middle = RESPONSE["h_min"], RESPONSE["h_min_centre"]

@@ -68,8 +68,8 @@ class Noted:
         """Take a step: outputs of bearings, errors (bearings, 4), and who was evaluated, by default all."""
         defect, of_length = (self._nothing if error is None else error for error in (defect, of_length))
         whose = self._all if evaluated is None else evaluated
-        _take(responses, _OUTPUTS, SIGN, self.now)
-        _note(time, defect, of_length, whose, self.now, self.since, self.peaks, self.times)
+        about = defect, of_length, whose, self.now, self.since, self.peaks, self.times
+        _take_and_note(time, responses, _OUTPUTS, SIGN, *about)
 
     def note_later(self, times: Array, bearings: NDArray[np.intp], found: Array) -> None:
         """Take extremes (m, 9) that became known later: at instants (m,) of bearings (m,)."""
@@ -107,6 +107,24 @@ def _note(
                 since[b, k] = now[b, k]
             if now[b, k] > peaks[b, k]:
                 peaks[b, k], times[b, k] = now[b, k], time
+
+
+@compiled
+def _take_and_note(
+    time: float,
+    responses: Array,
+    outputs: NDArray[np.intp],
+    sign: Array,
+    defect: Array,
+    of_length: Array,
+    evaluated: NDArray[np.bool_],
+    now: Array,
+    since: Array,
+    peaks: Array,
+    times: Array,
+) -> None:
+    _take(responses, outputs, sign, now)
+    _note(time, defect, of_length, evaluated, now, since, peaks, times)
 
 
 @compiled

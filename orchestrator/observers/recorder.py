@@ -49,9 +49,6 @@ def tells_details(unit: Unit) -> bool:
     return tilts(unit) or unit.get_string(port.BEARING_KEYS["boundary"]) == "jfo"
 
 
-_TOGETHER = 512  # steps at which waits have ended that are looked at together
-
-
 class Recorder(Observer):
     """Records of a run.
 
@@ -81,7 +78,8 @@ class Recorder(Observer):
         self._steps, self._stride = steps, stride
         self._newest = -1.0
         self._between = Between(bores, len(RESPONSE) + len(DETAILS))
-        self._whole, self._none = True, np.zeros(bearings, dtype=bool)
+        self._done: NDArray[np.bool_] | None = None
+        self._none = np.zeros(bearings, dtype=bool)
         self.rows = Rows(
             {
                 "times": ((), float),
@@ -122,12 +120,14 @@ class Recorder(Observer):
 
     def watch(self, start: float, end: float, advance: Advance) -> None:
         """Note the extremes of the system as it stands after a step, and complete records that waited."""
-        done = advance.evaluated
-        self._whole = done is None or bool(done.all())
+        done = self._done = advance.evaluated
         self._noted.note(end, self._system.responses, advance.defect, advance.of_length, done)
         if done is not None:
-            told = self._told, lambda k: self._system.motion[k]
-            if self._between.evaluated(done, end, self.rows.held, *told) > _TOGETHER:
+            rows = self.rows.held
+            if self._detail_blocks and self._between.waits(rows):
+                for block in self._detail_blocks:
+                    block.get()
+            if self._between.evaluated(done, end, rows, self._told, self._system.motion):
                 self._fill()
 
     def record(self, step: int, time: float, stepper: Stepper) -> None:
@@ -162,16 +162,17 @@ class Recorder(Observer):
         self._noted.since[:] = -np.inf
         self._newest = time
         waits = self._none if self._whole else self._between.stands < time
-        self._between.kept(row, waits, self._told, lambda k: system.stands_at()[k])
+        self._between.kept(row, waits, self._told, system.stands_at())
 
-    def _told(self, bearings: NDArray[np.intp]) -> Array:
-        """All that these bearings tell where they stand, (k, outputs and details)."""
-        for block in self._detail_blocks:
-            block.get()
-        told = np.empty((len(bearings), len(RESPONSE) + len(DETAILS)))
-        told[:, : len(RESPONSE)] = self._system.responses[bearings]
-        told[:, len(RESPONSE) :] = self._details_now[bearings]
-        return told
+    @property
+    def _told(self) -> tuple[Array, Array]:
+        """All that bearings tell where they stand."""
+        return self._system.responses, self._details_now
+
+    @property
+    def _whole(self) -> bool:
+        """Whether all bearings stand at the end of the last step."""
+        return self._done is None or bool(self._done.all())
 
     def _fill(self) -> None:
         """Complete what waited; a copy is complete."""

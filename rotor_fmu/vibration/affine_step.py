@@ -23,12 +23,14 @@ steps several times as long as 2 sqrt(3 m / k) may still be upset, and the defec
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
-from rotor_fmu.vibration.coordinates import Compliance, Coordinates, Maps
-from rotor_fmu.vibration.law_loops import end_wrenches, half_shares, react
+from rotor_fmu.vibration.coordinates import Coordinates, Maps
+from rotor_fmu.vibration.law_loops import begin, end_wrenches, react
 from rotor_fmu.vibration.trail import Extrapolation, Trail
 
 Array = NDArray[np.float64]
@@ -137,8 +139,9 @@ class AffineStep:
             If the law has no solution at the end of the step, or numbers are not finite.
         """
         offset = F0.reshape(-1) - static.wrench
-        start = self._reacting(offset, journals)
-        nearer = self._share(maps.compliance)
+        start, shares, compliance = np.empty_like(offset), np.empty_like(offset), maps.compliance
+        own = compliance.own, compliance.mixed
+        nearer = shares if begin(self._law, offset, journals, *own, start, shares) else None
         if nearer is None:
             end = maps.coast(motion, start, rotation)
         else:
@@ -149,7 +152,7 @@ class AffineStep:
             end += kick
         journals = journal_motion(coordinates, end, static)
         share = 1.0 if nearer is None else 1.0 - 2.0 * nearer
-        of_start, of_end = maps.compliance.start, maps.compliance.end
+        of_start, of_end = compliance.start, compliance.end
         at_start = self._nothing if nearer is None else nearer
         if beyond is not None:
             journals[:, 4:] += beyond.trail(-share * start).lead.reshape(-1, 4)
@@ -163,16 +166,11 @@ class AffineStep:
             sooner = nearer * wrench
             maps.add_start(sooner, end)
             maps.add_end(wrench - sooner, end)
-        if not solved or not np.isfinite(np.dot(end, end)):
+        if not (solved and math.isfinite(np.dot(end, end))):
             raise NoFiniteResult(
                 "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
             )
         return end, nearer, None if beyond is None else beyond.trail(share * (wrench - start))
-
-    def _share(self, compliance: Compliance) -> Array | None:
-        """Half the share of the mean in each wrench component, (4 n_b,), or None where all run linearly."""
-        nearer = np.empty(len(self._nothing))
-        return nearer if half_shares(self._law, compliance.own, compliance.mixed, nearer) else None
 
     def _reacting(self, offset: Array, journals: Array) -> Array:
         """Wrenches under the law: an offset less what stiffness and damping take off it."""

@@ -86,6 +86,15 @@ def half_shares(law: Array, own: Array, mixed: Array, nearer: Array) -> bool:
 
 
 @fused
+def begin(
+    law: Array, offset: Array, journals: Array, own: Array, mixed: Array, wrench: Array, nearer: Array
+) -> bool:
+    """Overwrite wrenches as `react`, and the shares of the mean as `half_shares`; return what that does."""
+    _react(law, offset, journals, wrench)
+    return half_shares(law, own, mixed, nearer)
+
+
+@fused
 def react(law: Array, offset: Array, journals: Array, wrench: Array) -> None:
     """Overwrite wrenches with an offset less what laws make of the journals' motion."""
     _react(law, offset, journals, wrench)
@@ -179,5 +188,5 @@ def compile_now() -> None:
     law, square, wrench, journals = np.zeros((1, 4, 8)), np.zeros((4, 4)), np.zeros(4), np.zeros((1, 8))
     moved = np.zeros((1, 8, 4))
     react(law, wrench, journals, np.zeros(4))
-    half_shares(law, np.zeros((1, 4, 4)), square, np.zeros(4))
+    begin(law, wrench, journals, np.zeros((1, 4, 4)), square, np.zeros(4), np.zeros(4))
     end_wrenches(law, wrench, journals, moved, moved, np.zeros(4), square, np.zeros(4))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +15,7 @@ from rotor_fmu.vibration.detuning import Detuning, grid_speed
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Turning:
+class Turning(NamedTuple):
     """A step in which the speed runs linearly.
 
     Attributes

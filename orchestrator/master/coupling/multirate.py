@@ -55,6 +55,12 @@ class _Room:
         self.moved, self.size, self.sizes = (np.zeros(n) for _ in range(3))
         self.defect, self.tangents = np.zeros((n, 4)), np.zeros((n, 32))
         self.rates, self.next = np.zeros((n, WIDTH)), np.zeros((n, WIDTH))
+        self.numbers, self.spans = np.zeros(n, dtype=np.intp), np.zeros((2, n))
+
+    def orders(self, count: int) -> tuple[list[int], list[float], list[float]]:
+        """Numbers of the bearings that are due, where they stand, and how far they go."""
+        stands, spans = self.spans[:, :count].tolist()
+        return self.numbers[:count].tolist(), stands, spans
 
 
 @dataclass
@@ -79,6 +85,9 @@ class Multirate:
     """Whether the last step was taken, so that what is next counts if it is not refused."""
     _known: bool = field(default=False, init=False)
     """Whether anything is known of the bearings."""
+    _before: float = field(default=0.0, init=False)
+    _reached: float = field(default=0.0, init=False)
+    """Start of the last step, and the instant that no bearing stands behind."""
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:
@@ -96,11 +105,13 @@ class Multirate:
             self._room = room = _Room(len(arrays[KNOWN[0]]))
             columns = [arrays[name] for name in KNOWN]
             room.rates[:] = np.column_stack([*columns, arrays["tangents"]])
+            self._reached = self._before = float(room.rates[:, STANDS].max())
 
     def refuse(self) -> None:
         """Go back to the intervals before the step; what was above the tolerance is due in its repetition."""
         if self._room is not None:
             self._taken, self._room.again[:] = False, self._room.rough
+            self._reached = self._before
 
     def begin_anew(self) -> None:
         """Forget the intervals, for something happens: each begins with a step and is evaluated behind it."""
@@ -115,14 +126,18 @@ class Multirate:
         rates, due, moved = room.rates, room.due, room.moved
         wrenches, tangents, where = system.forces, system.tangent_rows, system.stands_at()
         bends = self.tolerance >= FINEST
-        known.bend_on(time, step, bends, rates, wrenches, tangents, where, system.laws, room.changed)
-        system.tell_laws(room.changed.nonzero()[0].tolist())
+        count = known.bend_on(
+            time, step, bends, rates, wrenches, tangents, where, system.laws, room.changed, room.numbers
+        )
+        system.tell_laws(room.numbers[:count].tolist())
         system.rotor_group.step(time, step)
         system.rotor_group.fetch()
         motion, own = system.motion, OWN * self.tolerance
         standing = rates, tangents, where, motion, system.levers, room.again
-        find_due(end, own, common, *standing, moved, due, room.tangents)
-        self._evaluate(system, due.nonzero()[0].tolist(), rates[:, STANDS].tolist(), time, step)
+        count = find_due(
+            time, step, own, common, *standing, moved, due, room.tangents, room.numbers, room.spans
+        )
+        system.bearing_group.carry(*room.orders(count))
         largest, answered = settle(
             time,
             end,
@@ -145,30 +160,21 @@ class Multirate:
             room.rough,
             room.next,
         )
-        self._taken = True
+        self._taken, self._before, self._reached = True, time, end
         return Advance(1, room.defect, None, due.copy(), Errors(largest, answered))
-
-    @staticmethod
-    def _evaluate(system: System, due: list[int], stands: list[float], time: float, step: float) -> None:
-        """Carry bearings from where they stand to the end of the step."""
-        end = time + step
-        spans = [step if at == time else end - at for at in stands]  # an even step to the bit
-        system.bearing_group.feed_some(due)
-        system.bearing_group.step_some(due, stands, spans)
-        system.bearing_group.fetch(due)
 
     def _at(self, system: System, time: float, step: float) -> _Room:
         """Return what is known at the start of a step; one before that was not refused counts."""
         room = self._room
         if room is not None and self._known:
             self._count(room)
-            if room.rates[:, STANDS].max() <= time + 1e-6 * step:
+            if self._reached <= time + 1e-6 * step:
                 return room
         room = self._room = _Room(len(system.bearings))  # of another system, or the first step
         room.rates[:, STANDS], room.rates[:, known.INTERVAL] = time, step
         known.measure(system.forces, system.loads, 0.0, room.rates, room.size)
         room.rates[:, SIZE] = room.size
-        self._known, self._taken = True, False
+        self._known, self._taken, self._reached = True, False, time
         system.rotor_group.feed()
         return room
 

@@ -6,16 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmus.kernels.loops import compiled
-from orchestrator.master.coupling.rates import due_at, intervals_after, measure, relative
+from orchestrator.master.coupling.rates import STANDS, due_at, intervals_after, measure, relative
 from orchestrator.master.interface import defects
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Numbers = NDArray[np.intp]
 
 
 @compiled
 def find_due(
-    end: float,
+    time: float,
+    step: float,
     tolerance: float,
     all_of_them: bool,
     rates: Array,
@@ -27,10 +29,33 @@ def find_due(
     moved: Array,
     due: Mask,
     before: Array,
-) -> None:
-    """As `rates.due_at`; overwrite `before` with the tangents, which evaluations then change."""
+    numbers: Numbers,
+    spans: Array,
+) -> int:
+    """Find which bearings are due at the end of a step, as `rates.due_at`, and how many.
+
+    Parameters
+    ----------
+    time, step : float
+        Start and length of the step in s.
+    before : ndarray (n, 32)
+        Overwritten with the tangents, which evaluations then change.
+    numbers, spans : ndarray of int (n,), ndarray (2, n)
+        The first overwritten with numbers of those that are due, where they stand, and how far they go.
+    others
+        As `rates.due_at` takes them.
+    """
+    end = time + step
     due_at(end, tolerance, all_of_them, rates, tangents, where, motion, levers, again, moved, due)
     before[:] = tangents
+    count = 0
+    for b in range(len(due)):
+        if due[b]:
+            stands = rates[b, STANDS]
+            numbers[count], spans[0, count] = b, stands
+            spans[1, count] = step if stands == time else end - stands  # an even step to the bit
+            count += 1
+    return count
 
 
 @compiled

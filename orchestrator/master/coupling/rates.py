@@ -27,9 +27,7 @@ interval : after which they are due, in s;
 bend : relative defect of the last interval over the square of what moved the wrench in it, see `due_at`; at
     least `FADES` of that before;
 size : largest force of late, in N;
-span : how long the last interval was, in s; 0 before there was one.
-
-K and C at its start follow.
+span : how long the last interval was, in s; 0 before there was one. K and C at its start follow.
 """
 
 STANDS, INTERVAL, BEND, SIZE, SPAN = range(len(KNOWN))
@@ -37,8 +35,8 @@ BEFORE = len(KNOWN)
 WIDTH = BEFORE + 32
 
 OWN = 0.3
-"""Share of the tolerance that the defect over an interval of several steps may reach: of equal defects that
-of the longer interval does more harm."""
+"""Share of the tolerance that the defect over several steps may reach: of equal defects that of the longer
+interval does more harm."""
 
 CALM = 0.2
 """Share of that within which the defect, of second order, allows twice the interval."""
@@ -93,7 +91,8 @@ def bend_on(
     where: Array,
     laws: Array,
     changed: Mask,
-) -> None:
+    numbers: NDArray[np.intp],
+) -> int:
     """Give bearings that stand at `time` laws for the intervals that begin there.
 
     A tangent misses what the wrench bends by within the interval h.  While the motion is smooth, K and C
@@ -117,9 +116,10 @@ def bend_on(
         Motion of the journals in their housings where the bearings stand.
     laws : ndarray (n, 36)
         Of the rotor; those that change are overwritten.
-    changed : ndarray of bool (n,)
-        Overwritten with which.
+    changed, numbers : ndarray (n,) of bool and of int
+        Overwritten with which, and the first with their numbers, as many as are returned.
     """
+    count = 0
     for b in range(len(rates)):
         changed[b] = False
         if not abs(rates[b, STANDS] - time) <= _HERE * step:
@@ -141,6 +141,9 @@ def bend_on(
                     laws[b, 4 + k] = bent
             changed[b] |= laws[b, i] != wrench
             laws[b, i] = wrench
+        numbers[count] = b
+        count += changed[b]
+    return count
 
 
 @compiled

@@ -105,13 +105,14 @@ def bent_law(wrench, tangent, before, ratio, where):
     """The law of a bearing that stands at 1.0, of which an interval of 1 is over and `ratio` begins."""
     given, laws = [np.array(each)[None] for each in (wrench, tangent, where)], np.full((1, 36), 7.0)
     table, changed = np.zeros((1, known.WIDTH)), np.zeros(1, dtype=bool)
+    numbers = np.full(1, 7)
     table[0, STANDS], table[0, SPAN], table[0, INTERVAL] = 1.0 + 1e-9, float(ratio > 0.0), ratio
     table[0, BEFORE:] = before
-    known.bend_on(0.5, 0.1, True, table, *given, laws, changed)  # it stands elsewhere
+    known.bend_on(0.5, 0.1, True, table, *given, laws, changed, numbers)  # it stands elsewhere
     assert not changed[0] and np.all(laws == 7.0)
-    known.bend_on(1.0, 0.1, True, table, *given, laws, changed)
+    assert known.bend_on(1.0, 0.1, True, table, *given, laws, changed, numbers) == changed[0]
     assert changed[0] and table[0, STANDS] == 1.0
-    known.bend_on(1.0, 0.1, True, table, *given, laws, changed)
+    assert known.bend_on(1.0, 0.1, True, table, *given, laws, changed, numbers) == changed[0]
     assert not changed[0]
     return laws[0]
 

@@ -9,6 +9,7 @@ from orchestrator.observers.between import Between, Bores
 CLEARANCE, WIDTH = 1e-3, 0.5
 OFFSETS = np.array([[1e-5, -2e-5, 1e-5, 2e-5], [0.0, 0.0, 0.0, 0.0]])
 ORBIT, SPEED = np.array([3e-4, 2e-4, 2e-4, -1e-4]), 150.0
+NOTHING = np.zeros((2, 0))
 
 
 def motion(time):
@@ -41,14 +42,14 @@ def passed_over(span, dent=0.0):
     """Records at an eighth, half, and seven eighths of an interval, filled in, and what they should be."""
     bores = Bores([CLEARANCE] * 2, [WIDTH] * 2, OFFSETS)
     between, both = Between(bores, len(RESPONSE)), np.ones(2, dtype=bool)
-    between.kept(0, ~both, lambda k: told(0.0)[k], lambda k: motion(0.0)[k])
+    between.kept(0, ~both, (told(0.0), NOTHING), motion(0.0))
     assert between.complete == 1
     times = span * np.array([0.125, 0.5, 0.875])
     for row in range(1, 4):
-        between.kept(row, both, lambda k: told(0.0, dent)[k], lambda k: motion(0.0)[k])
+        between.kept(row, both, (told(0.0, dent), NOTHING), motion(0.0))
         assert between.complete == 1
-    given = lambda k: told(span, dent)[k], lambda k: motion(span)[k]
-    assert between.evaluated(both, span, 4, *given) == 1
+    given = (told(span, dent), NOTHING), motion(span)
+    assert not between.evaluated(both, span, 4, *given)
     bores.move(0, 1, 1.0)  # later
 
     def places(rows, bearing):
@@ -90,8 +91,8 @@ def test_gaps_that_are_no_round_bore_s_run_straight():
 def test_what_is_held_goes_on_from_its_arrays():
     bores = Bores([CLEARANCE] * 2, [WIDTH] * 2, OFFSETS)
     between, first = Between(bores, len(RESPONSE)), np.array([True, False])
-    between.kept(0, np.zeros(2, dtype=bool), lambda k: told(0.0)[k], lambda k: motion(0.0)[k])
-    between.kept(1, first, lambda k: told(1.0)[k], lambda k: motion(1.0)[k])
+    between.kept(0, np.zeros(2, dtype=bool), (told(0.0), NOTHING), motion(0.0))
+    between.kept(1, first, (told(1.0), NOTHING), motion(1.0))
     assert between.complete == 1
     other = Between(bores, len(RESPONSE))
     assert other.restore({f"between.{name}": x.copy() for name, x in between.arrays().items()}) == 1

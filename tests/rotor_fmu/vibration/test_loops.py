@@ -120,7 +120,7 @@ def test_no_step_waits_for_the_compiler():
     loops = [
         getattr(module, name)
         for module, names in (
-            (law_loops, ("react", "half_shares", "end_wrenches")),
+            (law_loops, ("react", "begin", "end_wrenches")),
             (whirl_loops, ("coast", "add_product")),
             (field_loops, ("fields_at",)),
         )
