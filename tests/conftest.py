@@ -25,6 +25,16 @@ try:
 except ImportError:
     coverage = None
 
+PROBES = None
+if coverage and sys.version_info < (3, 12) and coverage.Coverage.current():
+    with suppress(ImportError):  # without SlipCover all is traced
+        from tests.probes import start
+
+        PROBES = start()  # before the packages are imported
+        # in a worker both coverage's own, of every process, and pytest-cov's, below that of the worker
+        while running := coverage.Coverage.current():
+            running.stop()
+
 from bearing_fmu import depths  # noqa: E402
 from orchestrator.fmi.folder import build  # noqa: E402
 from rotor_fmu.train.file import load_train  # noqa: E402
@@ -97,20 +107,36 @@ LONG = (
 def pytest_collection(session):
     """Where lines are counted, import all modules: what stands outside their functions runs but once.
 
-    No line of the tests is counted: behind that the tests are collected without counting, in half the time.
+    No line of the tests is counted: behind that the tests are collected without tracing, in half the time,
+    and run without, where there are probes.
     """
     control = getattr(session.config.pluginmanager.getplugin("_cov"), "cov_controller", None)
     if control is None or not (coverage and coverage.Coverage.current()):
         return (yield)
-    for package in ("fmus", "rotor_fmu", "bearing_fmu", "orchestrator"):
-        for module in walk_packages(import_module(package).__path__, f"{package}."):
-            with suppress(ImportError):  # of a library that is not installed
-                import_module(module.name)
-    control.pause()
+    if PROBES:
+        control.pause()
+    if os.environ.get("PYTEST_XDIST_WORKER", "gw0") == "gw0":
+        for package in ("fmus", "rotor_fmu", "bearing_fmu", "orchestrator"):
+            for module in walk_packages(import_module(package).__path__, f"{package}."):
+                with suppress(ImportError):  # of a library that is not installed
+                    import_module(module.name)
+    if not PROBES:
+        control.pause()
     try:
         return (yield)
     finally:
-        control.resume()
+        if not PROBES:
+            control.resume()
+
+
+@pytest.hookimpl(wrapper=True, trylast=True)
+def pytest_runtestloop(session):
+    """Hand what the probes saw to pytest-cov, which saves it behind this."""
+    result = yield
+    control = getattr(session.config.pluginmanager.getplugin("_cov"), "cov_controller", None)
+    if PROBES and control:
+        control.cov.get_data().add_lines(PROBES.newly_seen)
+    return result
 
 
 COLLECTED = pytest.StashKey()
@@ -129,19 +155,6 @@ def pytest_collection_modifyitems(config, items):
         ranks.setdefault(name, (len(LONG), -count))
     order = sorted(range(len(items)), key=lambda index: (ranks[files[index]], files[index]))
     items[:] = [items[index] for index in order]
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_setup(item):
-    """Count no lines where a test is set up that is marked so; pytest-cov sees to its call."""
-    control = getattr(item.config.pluginmanager.getplugin("_cov"), "cov_controller", None)
-    if control is None or not item.get_closest_marker("no_cover"):
-        return (yield)
-    control.pause()
-    try:
-        return (yield)
-    finally:
-        control.resume()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -17,8 +17,6 @@ from fmus import port
 from tests.bearing_fmu.bearings import SPEED, TURBINE, lever, plain, respond
 from tests.faults import fault
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 DEPTHS = depths.films()
 
 

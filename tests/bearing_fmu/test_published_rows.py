@@ -28,7 +28,6 @@ def line_of(source, row):
     return line
 
 
-@pytest.mark.no_cover  # lines that other tests run
 @pytest.mark.parametrize(("source", "row"), ROWS)
 @published_case(
     "bores with grooves, lemon bores, tilting pads, full bearings: 47 rows",

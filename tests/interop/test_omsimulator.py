@@ -18,8 +18,6 @@ from orchestrator.scenario.file import load_scenario
 from orchestrator.ssp.writer import DEFINITION
 from tests.fmus.host import Host
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 UNITS = ("rotor_small.fmu", *(f"bearing_{depth}.fmu" for depth in depths.names()))
 
 

@@ -19,8 +19,6 @@ from orchestrator.ssp.writer import documents
 from tests.interop.tools import LAG, RARE, TOOLS, forces, missing, start
 from tests.marks import slow
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 H = 1e-4
 ENDS = {"calm": 0.02, "fracture": 0.05}
 

@@ -23,8 +23,6 @@ from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.work import Work
 from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 
-pytestmark = pytest.mark.no_cover  # many steps of what other tests run
-
 GRAVITY = 9.80665
 UNBALANCE = 0.05  # kg m at the middle wheel: a sixth of what the lost blade leaves
 SETTLING = 90  # revolutions until the whirl of the start has gone, in coarse steps

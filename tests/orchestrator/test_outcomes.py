@@ -24,8 +24,6 @@ from tests.orchestrator.oscillator import released
 from tests.orchestrator.results import synthetic_record
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 STATE = r"last state of {}: eccentricity ratio [\d.e-]+, tilts \S+ and \S+ urad, least gap \S+ um"
 
 

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-import pytest
 from hypothesis import assume, event, example, given
 from hypothesis import strategies as st
 
@@ -13,8 +12,6 @@ from tests.bearing_fmu.bearings import force_unit, lever, plain, respond
 from tests.bearing_fmu.films.test_film_energy import reynolds_losses, short_losses
 from tests.properties.examples import examples
 from tests.properties.journals import DEPTHS, bearings, film, positions, rates, speeds, turned
-
-pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 CORNER_COLUMNS = CORNERS[SPREAD_OUT][0]
 ANY = st.floats(allow_nan=True, allow_infinity=True)

@@ -28,8 +28,6 @@ from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 from tests.properties.damage import bytes_of, lines_of, unzipped, zipped
 from tests.properties.examples import examples
 
-pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
-
 SMALL = DATA / "small"
 SCENARIO = """\
 title = "Damaged"

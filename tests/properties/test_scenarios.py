@@ -15,8 +15,6 @@ from tests.faults import fault
 from tests.properties.examples import examples
 from tests.properties.journals import logarithmic
 
-pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
-
 BEARINGS, WHEELS = ("front", "rear"), ("wheel-1", "wheel-2", "wheel-3")
 _SPECIAL = "\x00\t\n\r\x1f\"\\'#\x7f\x85\u2028\ufeff"
 TITLES = st.text(st.sampled_from(_SPECIAL), max_size=4) | st.text(

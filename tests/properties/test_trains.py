@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-import pytest
 import scipy.linalg as sl
 from hypothesis import given
 from hypothesis import strategies as st
@@ -17,8 +16,6 @@ from rotor_fmu.train.writer import write_train
 from rotor_fmu.vibration.rotor import Rotor
 from tests.properties.examples import examples
 from tests.properties.shafts import laws, trains
-
-pytestmark = pytest.mark.no_cover  # lines that the tests of each part run, many times over
 
 METHODS = st.sampled_from(["irs", "irs-plain", "guyan", "craig-bampton"])
 GRAVITY = 9.80665

@@ -9,8 +9,6 @@ from bearing_fmu.film import make_film
 from tests.bearing_fmu.bearings import plain, respond
 from tests.published import published
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 ECCENTRICITIES = (0.1, 0.3, 0.5, 0.7, 0.9, 0.97)
 # Enough pressure at the ends that nothing ruptures: the full (2 pi) film.
 FLOODED = 1e12

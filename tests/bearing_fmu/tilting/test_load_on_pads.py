@@ -16,8 +16,6 @@ from tests.bearing_fmu.published_rows import load_of
 from tests.bearing_fmu.tilting.independent_pad import settled
 from tests.bearing_fmu.tilting.pads import DEG, ROUGH, at_rest, film
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 
 @pytest.mark.parametrize(
     ("first", "pads", "eps", "inverse", "met"),

@@ -31,8 +31,6 @@ from tests.orchestrator.toy_train import (
     toy_scenario,
 )
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
 
 

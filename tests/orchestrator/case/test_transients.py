@@ -11,8 +11,6 @@ from orchestrator.fmi.folder import build
 from orchestrator.scenario.file import load_scenario
 from rotor_fmu.train.file import load_train
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 MASS, OMEGA, ECCENTRICITY = 400.0, 100.0, 1e-6
 TRAIN = """
 name = "jeffcott"

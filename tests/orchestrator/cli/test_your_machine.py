@@ -28,7 +28,6 @@ def modes_of(text):
     return films, [f"{float(row[1]):.1f}" for row in rows if float(row[4]) > 80.0]
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_the_commands_of_the_page_lead_to_a_report(once, tmp_path, monkeypatch):
     """With FMUs from a folder of the tests, and shorter runs; figures are drawn elsewhere."""
     monkeypatch.setattr(document, "require_library", lambda: lambda: "library")

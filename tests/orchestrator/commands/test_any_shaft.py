@@ -120,7 +120,6 @@ def within(shafts, monkeypatch):
     return enter
 
 
-pytestmark = pytest.mark.no_cover  # lines that the tests of each command run
 WALKS = ("campbell", "campbell --supported", "harmonic")
 """Which walk over speed; that any shaft goes through `modes` and `reductions` is told at once."""
 

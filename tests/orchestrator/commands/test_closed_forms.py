@@ -15,8 +15,6 @@ from orchestrator.linear import case
 from rotor_fmu.linear.analysis import REACH
 from tests.published import published
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 HERTZ = 2.0 * math.pi
 MASS, LENGTH, UNBALANCE = 100.0, 1.0, 0.01
 STIFF, DAMPER = 5e6, 4e3  # of each bearing

@@ -53,7 +53,6 @@ def test_a_full_disk_at_the_end_of_a_run(short, small_fmus, monkeypatch):
     assert read_record(out).attrs["status"] == "finished" and not checkpoint_folder(out).exists()
 
 
-@pytest.mark.no_cover  # lines that other tests run
 @fault(
     "machine",
     "a full disk at the end of a long run without checkpoints",

@@ -67,7 +67,6 @@ def refused(result, path):
     return line
 
 
-@pytest.mark.no_cover  # many times the same lines
 @fault(
     "process",
     "a checkpoint in which a field is missing or is not what a run writes",
@@ -106,7 +105,6 @@ def _about_is_refused(read, key, value, folder, fmus):
         assert str(read.path) in str(error) or str(value) in str(error), error
 
 
-@pytest.mark.no_cover  # many times the same lines
 @pytest.mark.parametrize("name", ["unit1", "inputs", "start.static", "record.times", "record.peaks"])
 def test_an_array_that_is_missing_or_of_another_shape(name, saved, small_fmus, tmp_path):
     for arrays in (

@@ -18,8 +18,6 @@ from tests.faults import fault
 from tests.orchestrator.foreign import call
 from tests.orchestrator.process import command, done
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 SCENARIO = 'train = "small"\nend = 0.1\ndepth = "v3"\n[record]\ninterval = 1e-3\n'
 
 

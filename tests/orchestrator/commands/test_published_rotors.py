@@ -10,8 +10,6 @@ from orchestrator.cli.main import app
 from orchestrator.linear import case
 from tests.rotor_fmu.published import DAMPED, FRISWELL, LALANNE, OVERHUNG
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 
 @pytest.fixture
 def said(tmp_path, monkeypatch):

@@ -111,7 +111,6 @@ def test_a_run_of_another_ssp_is_not_resumed(exported, killed):
     assert checkpoint_folder(killed / "out").exists()
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_a_killed_run_goes_on_to_the_same_record(killed, small_fmus):
     options = ("--fmus", small_fmus, "--no-figures", "--trust", *LONG)
     whole = call("run", killed / "mine.ssp", *options, "--out", killed / "whole")

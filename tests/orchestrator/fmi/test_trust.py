@@ -251,7 +251,6 @@ def test_a_voucher_is_worth_something_to_its_user_only(tmp_path, monkeypatch):
     assert vouch(["a"]) == {} and vouched(vouchers) == set()
 
 
-@pytest.mark.no_cover  # lines that other tests run
 @fault(
     "archive",
     "an FMU that is exchanged between a trusted run and its resumption",

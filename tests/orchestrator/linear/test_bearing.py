@@ -115,7 +115,6 @@ def test_the_pressure_map_shows_the_bore():
     assert plain.get_title(loc="left") == words[0] and not plain.patches
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_a_bearing_of_its_own_file(tmp_path):
     folder = tmp_path / "out"
     assert investigate("tests/examples/bearing/dam.toml", folder, depths=("v2",)) == 0
@@ -127,7 +126,6 @@ def test_a_bearing_of_its_own_file(tmp_path):
     assert float(dam.max()) > 2e5  # what builds up before its end presses down
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_a_load_in_any_direction(tmp_path):
     """Turned by a quarter, load and pressure are the same: in the file and as an option."""
     path, found = tmp_path / "own.toml", []

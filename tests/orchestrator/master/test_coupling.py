@@ -7,8 +7,6 @@ from orchestrator.master.coupling import SCHEMES, GaussSeidel, LinearImplicit, m
 from orchestrator.master.system import Wiring
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 END = 0.02  # s; the modes have 15.7 and 48 Hz and more
 
 

@@ -7,8 +7,6 @@ from orchestrator.master.coupling import SCHEMES, make_scheme
 from orchestrator.master.system import Wiring
 from tests.orchestrator.oscillator import DISPLACEMENT, exact_motion, motion, released
 
-pytestmark = pytest.mark.no_cover  # many steps of what other tests run
-
 END = 0.02  # s; the modes have 15.7 and 48 Hz and more
 STEPS = END / np.array([80, 160, 320])
 

@@ -17,8 +17,6 @@ from orchestrator.master.coupling import SCHEMES, make_scheme
 from orchestrator.master.system import System, Wiring
 from tests.orchestrator.oscillator import begin
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 UNITS = Path(__file__).parents[1] / "units"
 EXPLICIT = ("jacobi", "gauss-seidel")
 SIZE, STIFFNESS, STEP = 8, 2e6, 1e-3

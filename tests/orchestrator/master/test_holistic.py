@@ -14,8 +14,6 @@ from tests.marks import slow
 from tests.monolithic.holistic import holistic_model
 from tests.monolithic.integrate import integrate
 
-pytestmark = pytest.mark.no_cover  # many steps of what other tests run
-
 END, INTERVAL = 6e-3, 4e-4  # s
 RUN = {"end": END, "event": {"time": 2.13e-3}, "record": {"interval": INTERVAL}}
 TIMES = INTERVAL * np.arange(round(END / INTERVAL) + 1)

@@ -10,8 +10,6 @@ from orchestrator.master.assembly import assemble
 from orchestrator.master.start.equilibrium import find_start
 from orchestrator.scenario.file import load_scenario, train_of
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 
 @pytest.fixture(scope="module")
 def started(tmp_path_factory):

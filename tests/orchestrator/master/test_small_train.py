@@ -99,7 +99,6 @@ def rms(values):
     return float(np.sqrt(np.mean(values**2)))
 
 
-@pytest.mark.no_cover  # many steps of what the others take
 @pytest.mark.parametrize("depth", [depth if depth == "v1" else slow(depth) for depth in DEPTHS])
 def test_linear_implicit_is_of_second_order_through_the_fracture(depth, fmus):
     reference = forces(fmus, depth=depth, step=6.25e-6)
@@ -111,7 +110,6 @@ def test_linear_implicit_is_of_second_order_through_the_fracture(depth, fmus):
     assert errors[0] < 1e-3 * dynamic
 
 
-@pytest.mark.no_cover  # many steps of what the others take
 def test_explicit_coupling_fails_where_linear_implicit_is_accurate(fmus):
     event, defects = {"time": 4.13e-3}, {}
     for coupling in ("linear-implicit", "gauss-seidel", "jacobi"):
@@ -169,7 +167,6 @@ def test_a_run_repeats_bit_by_bit(fmus):
     assert first.identical(second)
 
 
-@pytest.mark.no_cover  # many steps of what the others take
 @pytest.mark.parametrize(
     ("coupling", "step", "end"),
     [("linear-implicit", 1e-3, 0.04), ("newton", 1e-3, 0.04), ("iqn-ils", 1e-4, 0.021)],

@@ -12,8 +12,6 @@ from rotor_fmu.train.file import load_train
 from tests.faults import fault
 from tests.orchestrator.toy_train import toy_fmu_folder, toy_scenario
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 BLADE = {"wheel": "wheel", "unbalance": 0.1, "time": 0.0205}
 
 

@@ -24,8 +24,6 @@ from tests.orchestrator.foreign import call
 from tests.orchestrator.observers.killed import BLADE, Killed, killed_at
 from tests.orchestrator.toy_train import toy_scenario
 
-OFTEN = ("newton", "iqn-ils", "controlled")
-"""Whose lines other tests run."""
 CASES = {
     "plain": {},
     "controlled": {"coupling": "gauss-seidel", "tolerance": 0.015},
@@ -35,13 +33,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        pytest.param(case, id=name, marks=[pytest.mark.no_cover] * (name in OFTEN))
-        for name, case in CASES.items()
-    ],
-)
+@pytest.mark.parametrize("change", CASES.values(), ids=CASES)
 def test_a_resumed_run_has_the_record_of_an_uninterrupted_one(change, toy, tmp_path, monkeypatch):
     interval = {"interval": 3e-3}
     scenario = toy_scenario(tmp_path, event=BLADE, record=interval, **change)

@@ -13,8 +13,6 @@ from orchestrator.results.summary_table import to_text
 from orchestrator.scenario.file import load_scenario
 from tests.orchestrator.oscillator import DISPLACEMENT, released
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 
 @pytest.fixture(scope="module")
 def fmus(train_fmus):

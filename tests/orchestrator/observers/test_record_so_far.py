@@ -44,7 +44,6 @@ def test_the_record_is_written_as_it_goes(toy, tmp_path):
     assert source.record.sizes["time"] == 28
 
 
-@pytest.mark.no_cover  # lines that other tests run
 def test_what_is_written_is_not_in_memory(toy, tmp_path, monkeypatch):
     """Record, table and what is read of single series are those of a run in memory, to the bit."""
     scenario = toy_scenario(tmp_path, event=BLADE, record={"interval": 1e-3, "revolutions": True}, end=0.2)

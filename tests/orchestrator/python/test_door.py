@@ -12,8 +12,6 @@ from orchestrator.errors import OrchestratorError
 from orchestrator.outcome import Outcome
 from orchestrator.report import document
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 PAGE = Path(bladeloss.__file__).parents[1] / "README.md"
 SHORT = {"depth": "v3", "end": 0.01, "event": None}
 

@@ -122,7 +122,6 @@ def test_a_bode_plot_appears_where_the_speed_changes(records):
     assert not list(bode(results_of([records[0]])))
 
 
-@pytest.mark.no_cover  # figures that other tests draw
 def test_the_same_can_be_printed(records, tmp_path, monkeypatch):
     """Words of each run, then the figures, of which two are enough here."""
     few = islice(figures_of([record.isel(time=slice(900, 1200)) for record in records[:1]]), 2)

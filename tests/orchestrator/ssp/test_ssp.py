@@ -18,8 +18,6 @@ from orchestrator.ssp.reader import read_ssp
 from orchestrator.ssp.structure import SspError
 from tests.marks import slow
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 SHORT = {"end": 0.012, "event": {"time": 0.00613}, "depth": "v3", "depth_at": {"rear": "v2"}}
 
 

@@ -6,8 +6,6 @@ from orchestrator.study.paper.calibration.bench import bench
 from orchestrator.study.paper.calibration.search import TARGETS, before_fracture, design_value, with_values
 from rotor_fmu.train.turbine_geometry import TurbineDesign
 
-pytestmark = pytest.mark.no_cover  # steps of what other tests run
-
 
 @pytest.fixture(scope="module")
 def depths():

@@ -188,7 +188,6 @@ def run(tmp_path, code, **request):
         return status, said.read(), errors.read()
 
 
-@pytest.mark.no_cover  # figures that other tests draw
 def test_a_run_that_dies_makes_a_partial_comparison(here, tmp_path):
     out = tmp_path / "out"
     status, said, errors = run(tmp_path, DIES_AT_V1, out=out, doublings=2)

@@ -16,8 +16,6 @@ from rotor_fmu.train.train import Material
 from tests.published import published
 from tests.rotor_fmu.published_rotors import friswell, lalanne_ferraris, springs, uniform_shaft
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 HERTZ = 2.0 * math.pi
 SPEEDS = HERTZ * np.array([0.0, 12.5, 25.0, 37.5, 50.0])
 METHODS = ("irs", "irs-plain", "guyan", "craig-bampton")

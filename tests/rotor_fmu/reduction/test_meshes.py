@@ -23,8 +23,6 @@ from rotor_fmu.vibration.modal_shaft import to_modal
 from rotor_fmu.vibration.prepared import prepare_shaft
 from tests.rotor_fmu.meshes import exact_frequencies, meshed
 
-pytestmark = pytest.mark.no_cover  # many reductions by lines that the tests beside run
-
 MESHES = (3, 4, 12, 56, 80, 200, 800, 1600)
 COUNT = 8
 ERROR = {"irs": 5e-9, "irs-plain": 5e-9, "craig-bampton": 2e-6, "guyan": 0.08, "none": 5e-9}

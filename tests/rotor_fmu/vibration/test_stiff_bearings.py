@@ -18,8 +18,6 @@ from tests.rotor_fmu.small_shafts import (
     unreduced,
 )
 
-pytestmark = pytest.mark.no_cover  # many steps of what other tests run
-
 MASS, H, SPEED = 2.0, 1e-3, 12.0
 
 

@@ -1,7 +1,6 @@
 """Colours, dashes and names of depths; which bearing is shown; all figures in files."""
 
 import numpy as np
-import pytest
 from matplotlib import rc_context
 
 from orchestrator.results import quantities
@@ -9,8 +8,6 @@ from orchestrator.results.figures import style
 from orchestrator.results.figures.write import write_figures
 from orchestrator.results.verdicts.judge import worst_bearing
 from tests.faults import fault
-
-pytestmark = pytest.mark.no_cover  # lines that other tests run
 
 BEARING = "LP2-front"
 

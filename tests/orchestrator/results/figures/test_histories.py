@@ -12,8 +12,6 @@ from orchestrator.results.figures.shaft_maxima import normal_stress, vibration_a
 from tests.orchestrator.results import synthetic_record
 from tests.orchestrator.results.figures.axes import line, panel_axes
 
-pytestmark = pytest.mark.no_cover  # lines that other tests run
-
 BEARING = "LP2-front"
 
 
