@@ -113,6 +113,8 @@ class RotorSlave(UnitSlave):
             if not orbit:
                 parts[1:] = np.zeros_like(parts[0]), np.zeros_like(parts[0])
             self._rotor.start_from_positions(*parts, time=self.start_time)
+        if not (self._drive.course or self._drive.torque):
+            self._rotor.get_ready()
         self._show()
 
     def _start_speed(self) -> float:

@@ -32,8 +32,8 @@ from orchestrator.observers.rows import Rows
 
 Array = NDArray[np.float64]
 
-_KEPT = [index for name, index in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))]
-KEPT = tuple(name for name, index in RESPONSE.items() if index in _KEPT)
+_KEPT = np.array([k for name, k in RESPONSE.items() if not name.startswith(("F0.", "K[", "C["))])
+KEPT = tuple(np.array(list(RESPONSE))[_KEPT].tolist())
 """Bearing outputs in the record: all but the affine law."""
 
 SHAFT = ("amplitude.max", "amplitude.max_z", "stress.max", "stress.max_z")

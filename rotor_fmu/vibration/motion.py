@@ -104,6 +104,10 @@ class RotorMotion:
         found = initial_state.under_law(self._condensed, harmonic, self._speed, law, angle, orbit)
         self.set_state(replace(found, time=time))
 
+    def get_ready(self) -> None:
+        """Make what steps at the speed of the start need, which takes a hundred times as long as one."""
+        self._maps.coordinates(self._speed)
+
     def kinematics(self) -> Array:
         """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""
         housings = self.housings()
