@@ -16,6 +16,7 @@ from xarray.backends import H5NetCDFStore
 from xarray.backends.common import ArrayWriter
 
 from orchestrator.results.growing_record import GROWING, HEAD_FILE, is_growing, open_growing
+from orchestrator.results.netcdf import load
 
 RECORD_FILE = "record.nc"
 TABLE_FILE = "record.csv"
@@ -162,8 +163,7 @@ def read_record(path: Path) -> xr.Dataset:
         growing = open_growing(path)
         growing.check_size()
         return growing.dataset().load()
-    with xr.open_dataset(path / RECORD_FILE if path.is_dir() else path, engine="h5netcdf") as record:
-        return record.load()
+    return load(path / RECORD_FILE if path.is_dir() else path)
 
 
 def table_columns(record: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:

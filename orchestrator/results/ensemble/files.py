@@ -6,6 +6,8 @@ from pathlib import Path
 
 import xarray as xr
 
+from orchestrator.results.netcdf import load
+
 DATA, TABLE, SAMPLES, SIGN = "study.nc", "study.csv", "samples.csv", "study.toml"
 """Dataset, table of one number a run, samples, and the study as it was asked for."""
 RUNS, WORST = "runs", "worst"
@@ -19,8 +21,7 @@ def is_study(path: Path) -> bool:
 
 def read_study(folder: Path) -> xr.Dataset:
     """The dataset of a study, in memory."""
-    with xr.open_dataset(folder / DATA, engine="h5netcdf") as data:
-        return data.load()
+    return load(folder / DATA)
 
 
 def name_of_run(sample: int, depth: str) -> str:
