@@ -44,6 +44,14 @@ class Jumps:
         self.behind, self._end = self._level, end
         return True
 
+    def share(self, level: int) -> float:
+        """Share of the error from its length that a step over a jump has of one as long as those around.
+
+        What is missed within a step reaches the shaft as an impulse, which goes with the length; the estimate
+        counts on steps of one length, and those before and behind are as long as that with which it was met.
+        """
+        return 2.0 ** (self._level - level)
+
     def passed(self, end: float) -> None:
         """Note that a step was accepted."""
         if end >= self._end:

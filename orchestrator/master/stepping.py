@@ -213,6 +213,8 @@ class Stepper:
             problem = self._problem(advance, sizes, step)
             if isinstance(problem, ToleranceMissed) and self._jumps.found(max(sizes), self.level, end):
                 self.counts.jumps, problem = self.counts.jumps + 1, None
+                assert advance.of_length is not None
+                advance.of_length[:] *= self._jumps.share(self.level)
         except NotConverged as error:
             problem = ToleranceMissed(f"{error}, with a step of {step:.3g} s")
         except UnitError as error:

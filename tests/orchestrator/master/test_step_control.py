@@ -8,6 +8,7 @@ import pytest
 from orchestrator.case.simulate import simulate
 from orchestrator.errors import FmuError
 from orchestrator.master.coupling import LinearImplicit, Newton
+from orchestrator.master.jumps import Jumps
 from orchestrator.master.stepping import DEEPEST, StepFailure, Stepper, ToleranceMissed
 from orchestrator.master.time_loop import Course
 from orchestrator.outcome import Outcome
@@ -92,6 +93,13 @@ def test_a_jump_of_the_force_is_stepped_over_and_counted(store, toy_fmus, share)
         behind = np.flatnonzero(np.diff(times) < STEP / 3)
         assert len(behind) < 0.3 * len(times)  # steps grow again
     system.close()
+
+
+def test_what_is_missed_over_a_jump_counts_as_an_impulse():
+    """The step over it is a quarter of that with which it was met, and so is what the shaft feels."""
+    jumps = Jumps()
+    assert [jumps.found(0.1, level, 1.0) for level in (2, 3, 4)] == [False, False, True]
+    assert jumps.share(4) == 0.25
 
 
 def test_a_step_taken_back_leaves_no_trace(store, toy_fmus):
