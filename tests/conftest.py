@@ -1,7 +1,9 @@
 """What holds for all tests: BLAS on one thread, and what takes long to make is made once for all workers."""
 
+import gc
 import os
 
+gc.disable()  # until all is imported and collected, which stays
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")  # before numpy is loaded; for processes that tests start, too
 # numba colours messages that nobody reads, of types it tries: some percent of the time in which it compiles
@@ -108,8 +110,16 @@ def pytest_collection(session):
     """Where lines are counted, import all modules: what stands outside their functions runs but once.
 
     No line of the tests is counted: behind that the tests are collected without tracing, in half the time,
-    and run without, where there are probes.
+    and run without, where there are probes. What is there then stays, and is not looked through for garbage.
     """
+    try:
+        return (yield from _collected(session))
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
+def _collected(session):
     control = getattr(session.config.pluginmanager.getplugin("_cov"), "cov_controller", None)
     if control is None or not (coverage and coverage.Coverage.current()):
         return (yield)

@@ -7,6 +7,7 @@ only become shorter.
 import ast
 import sys
 from collections import defaultdict
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -108,7 +109,10 @@ def imports(path):
     return found
 
 
-IMPORTS = {name: imports(path) for name, path in MODULES.items()}
+@cache
+def all_imports():
+    """Those of each module; not before a test asks, for every worker collects this file."""
+    return {name: imports(path) for name, path in MODULES.items()}
 
 
 def tops(names):
@@ -121,7 +125,10 @@ def of(names, *packages):
 
 def edges(*packages):
     return {
-        (a, b) for a, names in IMPORTS.items() for b in names if a in of(MODULES, *packages) and b in MODULES
+        (a, b)
+        for a, names in all_imports().items()
+        for b in names
+        if a in of(MODULES, *packages) and b in MODULES
     }
 
 
@@ -202,7 +209,7 @@ def test_no_function_is_long():
 
 @pytest.mark.parametrize("module", sorted(of(MODULES, *PHYSICS)))
 def test_physics_knows_nothing_of_fmi(module):
-    names = IMPORTS[module]
+    names = all_imports()[module]
     assert not tops(names) & {"pythonfmu", "fmpy", "orchestrator"}
     assert not of(names, *(set(PHYSICS) - tops({module}))), "an arrow between the two units"
     if not module.endswith(".facade"):
@@ -212,7 +219,7 @@ def test_physics_knows_nothing_of_fmi(module):
 
 @pytest.mark.parametrize("module", sorted(of(MODULES, "orchestrator")))
 def test_the_master_reaches_physics_through_fmus_only(module):
-    names = IMPORTS[module]
+    names = all_imports()[module]
     if not module.startswith(STUDIES_OF_THE_TRAIN):
         assert of(names, *PHYSICS) <= OF_PHYSICS_FOR_THE_MASTER
     assert of(names, "fmus") <= OF_FMUS_FOR_THE_MASTER
@@ -223,7 +230,7 @@ def test_the_master_reaches_physics_through_fmus_only(module):
 
 @pytest.mark.parametrize("module", sorted(of(MODULES, "fmus")))
 def test_the_fmi_side_knows_nothing_of_physics(module):
-    assert not tops(IMPORTS[module]) & {"orchestrator", "fmpy", *PHYSICS}
+    assert not tops(all_imports()[module]) & {"orchestrator", "fmpy", *PHYSICS}
 
 
 def test_the_files_in_an_fmu_use_no_library_but_the_listed():
