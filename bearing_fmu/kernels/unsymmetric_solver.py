@@ -10,53 +10,60 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from bearing_fmu.kernels.block_inverse import invert, set_windows
 from bearing_fmu.kernels.compiled import inner_kernel, kernel
-from bearing_fmu.kernels.vector import LANES, add_rows, set_rows, subtract_rows
+from bearing_fmu.kernels.vector import (
+    LANES,
+    TILE,
+    add_rows,
+    padded,
+    set_product,
+    set_rows,
+    set_tile,
+    subtract_product,
+    subtract_rows,
+    subtract_tile,
+)
 
 Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _invert(s: Floats, at: int, n: int, width: int, factor: Floats) -> bool:
-    """Invert the block at `at` in place, by Gauss and Jordan's method with row pivots; False if singular."""
-    order = factor[width : 2 * width]
-    for pivot in range(n):
-        best, size = pivot, abs(s[at + pivot * width + pivot])
-        for j in range(pivot + 1, n):
-            if abs(s[at + j * width + pivot]) > size:
-                best, size = j, abs(s[at + j * width + pivot])
-        if not size > 0.0:
-            return False
-        order[pivot] = best
-        row = at + pivot * width
-        if best != pivot:
-            for k in range(n):
-                s[row + k], s[at + best * width + k] = s[at + best * width + k], s[row + k]
-        for j in range(n):
-            factor[j] = s[at + j * width + pivot]
-            s[at + j * width + pivot] = 0.0
-        factor[pivot] = 1.0 / factor[pivot]
-        s[row + pivot] = 1.0
+def _multiply(target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int) -> None:
+    """Set one block to the product of two."""
+    tiled = n // TILE * TILE
+    for j in range(0, tiled, TILE):
         for k in range(0, width, LANES):
-            set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
-            for j in range(n):
-                if j != pivot:
-                    subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
-    for pivot in range(n - 1, -1, -1):
-        best = int(order[pivot])
-        if best != pivot:
-            for j in range(n):
-                here = at + j * width
-                s[here + pivot], s[here + best] = s[here + best], s[here + pivot]
-    return True
+            set_tile(
+                target, to + j * width + k, width, b, 0, a, at + j * width, 1, width, b, start + k, width, n
+            )
+    for j in range(tiled, n):
+        for k in range(0, width, LANES):
+            set_rows(target, to + j * width + k, a, at + j * width, 1, b, start + k, width, n)
 
 
 @inner_kernel
-def _multiply(target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int) -> None:
-    """Set one block to the product of two."""
-    for j in range(n):
+def _subtract_product(
+    target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int, ones: Floats,
+    place: int,
+) -> None:  # fmt: skip
+    """Subtract the product of two blocks from one; from `place` on eight `ones`."""
+    tiled = n // TILE * TILE
+    for j in range(0, tiled, TILE):
         for k in range(0, width, LANES):
-            set_rows(target, to + j * width + k, a, at + j * width, 1, b, start + k, width, n)
+            subtract_tile(
+                target, to + j * width + k, width, ones, place, a, at + j * width, 1, width,
+                b, start + k, width, n,
+            )  # fmt: skip
+    for j in range(tiled, n):
+        for k in range(0, width, LANES):
+            subtract_rows(target, to + j * width + k, a, at + j * width, 1, b, start + k, width, n)
+
+
+def ring_work(n: int) -> Floats:
+    """Work space of `factorise_ring`, and of `solve_ring` with up to 3 n sides, for blocks of n rows."""
+    width = padded(n)
+    return np.zeros(3 * n * width + 8 * width + 4)
 
 
 @kernel
@@ -81,8 +88,8 @@ def factorise_ring(
         Couplings to the next column.
     w, y : ndarray, shape (count * n * width,)
         On return what couples each column to the last one, and the last one to it.
-    work : ndarray, shape (2 * (n + 1) * width,) or longer
-        Work space.
+    work : ndarray
+        Of `ring_work`.
 
     Returns
     -------
@@ -91,9 +98,11 @@ def factorise_ring(
     """
     block = n * width
     last = (count - 1) * block
-    v, u, row = work[:block], work[block : 2 * block], work[2 * block :]
+    v, u, kept = work[:block], work[block : 2 * block], work[2 * block : 3 * block]
+    row = work[3 * block :]
     v[:] = 0.0
     u[:] = 0.0
+    set_windows(n, width, row)
     end = (count - 1) * width
     for j in range(n):
         v[j * width + j] = -lower[end + j]
@@ -104,24 +113,21 @@ def factorise_ring(
             for j in range(n):
                 v[j * width + j] -= upper[i * width + j]
                 u[j * width + j] -= lower[i * width + j]
-        if not _invert(b, at, n, width, row):
+        if not invert(b, at, n, width, row, kept):
             return False
         _multiply(w, at, v, 0, b, at, n, width)
         _multiply(y, at, b, at, u, 0, n, width)
-        for j in range(n):
-            for k in range(0, width, LANES):
-                subtract_rows(b, last + j * width + k, w, at + j * width, 1, u, k, width, n)
+        _subtract_product(b, last, w, at, u, 0, n, width, row, 4 * width + 4)
         if i < count - 2:
             ahead = at + block
             for j in range(n):
-                scale = upper[i * width + j]
-                for k in range(n):
-                    here = j * width + k
-                    low = lower[i * width + k]
-                    b[ahead + here] -= scale * b[at + here] * low
-                    v[here] = w[at + here] * low
-                    u[here] = scale * y[at + here]
-    return _invert(b, last, n, width, row)
+                for k in range(0, width, LANES):
+                    here, low = j * width + k, i * width + k
+                    set_product(v, here, w, at + here, lower, low)
+                    set_rows(u, here, upper, i * width + j, 0, y, at + here, 0, 1)
+                    set_rows(row, k, upper, i * width + j, 0, b, at + here, 0, 1)
+                    subtract_product(b, ahead + here, row, k, lower, low)
+    return invert(b, last, n, width, row, kept)
 
 
 @inner_kernel
@@ -150,8 +156,8 @@ def solve_ring(
         As left by `factorise_ring`.
     x : ndarray, shape (count * sides * width,)
         Right-hand sides, for each column one row a side; on return the solution.
-    row : ndarray, shape (sides * width,)
-        Work space.
+    row : ndarray
+        Of `ring_work`.
     """
     block = n * width
     rows = sides * width

@@ -30,9 +30,27 @@ def _sum_of_rows(sign: float, keep: bool):
     return operation
 
 
-def _product(sign: float):
+def _tile_of_rows(sign: float, keep: bool):
+    def operation(y, at, y_next, part, part_at, x, x_at, x_step, x_next, a, a_at, a_step, count):
+        totals = np.zeros((vector.TILE, LANES))
+        for r, total in enumerate(totals):
+            to = at + r * y_next
+            if keep:
+                total += y[to : to + LANES] * part[part_at : part_at + LANES]
+            for j in range(count):
+                row = a_at + j * a_step
+                total += sign * x[x_at + j * x_step + r * x_next] * a[row : row + LANES]
+        for r, total in enumerate(totals):
+            to = at + r * y_next
+            y[to : to + LANES] = total
+
+    return operation
+
+
+def _product(sign: float, keep: bool = True):
     def operation(y, at, a, a_at, b, b_at):
-        y[at : at + LANES] += sign * a[a_at : a_at + LANES] * b[b_at : b_at + LANES]
+        product = sign * a[a_at : a_at + LANES] * b[b_at : b_at + LANES]
+        y[at : at + LANES] = y[at : at + LANES] + product if keep else product
 
     return operation
 
@@ -41,6 +59,9 @@ OPERATIONS = {
     "set_rows": _sum_of_rows(1.0, keep=False),
     "add_rows": _sum_of_rows(1.0, keep=True),
     "subtract_rows": _sum_of_rows(-1.0, keep=True),
+    "set_tile": _tile_of_rows(1.0, keep=False),
+    "subtract_tile": _tile_of_rows(-1.0, keep=True),
+    "set_product": _product(1.0, keep=False),
     "add_product": _product(1.0),
     "subtract_product": _product(-1.0),
 }

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.kernels.compiled import kernel, stage
-from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring
+from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, ring_work, solve_ring
 from bearing_fmu.kernels.vector import padded
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
@@ -60,7 +60,7 @@ class Network(NamedTuple):
     lower: Floats  #: (m n',) couplings of the matrix
     upper: Floats  #: (m n',)
     sides: Floats  #: (SIDES m n',) right-hand sides, then solutions
-    work: Floats  #: (3 n n' + SIDES n',)
+    work: Floats  #: of `ring_work`
 
 
 def network(columns: int, rows: int) -> Network:
@@ -77,7 +77,7 @@ def network(columns: int, rows: int) -> Network:
         lower=np.zeros(m * width),
         upper=np.zeros(m * width),
         sides=np.zeros(SIDES * m * width),
-        work=np.zeros(3 * n * width + SIDES * width),
+        work=ring_work(n),
         **cells,
     )
 

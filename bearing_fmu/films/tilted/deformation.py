@@ -1,7 +1,9 @@
 """How far the wall of a soft layer had given way: what a step begins with, and its rate of deformation.
 
 The layer does not turn, so c p belongs to places of the bore, whereas the grid goes with the journal. What is
-remembered is c p at the nodes, over the clearance, and the parameter of the grid's map (`kernels.grid`). That
+remembered is c p at the nodes, over the clearance, and the parameter of the grid's map (`kernels.grid`).
+Where a film is mixed of two grids both are remembered: what one takes from the other has the error of
+interpolating it, so it is taken only where the film that takes it counts for nothing yet. The map
 is inverted exactly: a column of now has its place on the uniform circle of then, where c p is interpolated by
 the cubic convolution of Keys (1981, IEEE Trans. Acoust. Speech Signal Process. 29, 1153), which has a
 continuous slope. Over a step, by implicit Euler, ::
@@ -18,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.films.tilted.layered import KEPT, LayeredFilm
+from bearing_fmu.films.tilted.layered import KEPT, RATE, SOURCE, STEP, LayeredFilm
 from bearing_fmu.films.tilted.tangent import BY_METRIC, TANGENT
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
@@ -28,8 +30,6 @@ from bearing_fmu.result import DAMPING, STIFFNESS
 
 Floats = NDArray[np.float64]
 
-#: Length of the step and the rate 1/s that follows from it, 0 where nothing is remembered.
-STEP, RATE = 0, 1
 #: What is remembered first: nothing, of the rigid film, of that on its layer, of that on a spread grid.
 NOTHING, OF_RIGID, ON_LAYER, SPREAD_OUT = 0.0, 1.0, 2.0, 3.0
 # Then the map's parameter (2), the velocity (4), and whether the rates of c p at the nodes stand behind c p.
@@ -39,10 +39,22 @@ _STIFFEST = 10.0
 
 
 @inner_kernel
+def _slot(of: float) -> int:
+    return 1 if of == SPREAD_OUT else 0
+
+
+@inner_kernel
+def forget(layered: LayeredFilm) -> None:
+    """Begin an evaluation, after which only what is solved in it is remembered."""
+    layered.now[0, 0] = layered.now[1, 0] = NOTHING
+
+
+@inner_kernel
 def remember(layered: LayeredFilm, film: TiltedFilm, of: float, v: Floats, ambient: float) -> None:
     """Note how far the wall has given way; where the film is ruptured what the pressure would make of it."""
     n, m = layered.was.shape[1], layered.was.shape[2]
-    now, then, soft, rate = layered.now, layered.then, layered.constants[2], layered.time[RATE]
+    slot = _slot(of)
+    now, then, soft, rate = layered.now[slot], layered.then[slot], layered.constants[2], layered.time[RATE]
     now[0], now[_MAP], now[_MAP + 1] = of, film.grading[0, 0], film.grading[0, 1]
     copy(v, now[_VELOCITY : _VELOCITY + 4])
     follows = of != OF_RIGID and rate > 0.0 and then[0] == of
@@ -59,7 +71,16 @@ def remember(layered: LayeredFilm, film: TiltedFilm, of: float, v: Floats, ambie
 def bring_over(layered: LayeredFilm, of: float) -> None:
     """Bring what is remembered to the columns of now, and guess where the film goes `of` this grid."""
     n, m = layered.was.shape[1], layered.was.shape[2]
-    then, was, cos, sin = layered.then, layered.was, layered.film.rings[0, COS], layered.film.rings[0, SIN]
+    slot = _slot(of)
+    if layered.then[slot, 0] == NOTHING:
+        slot = 1 - slot
+    layered.time[SOURCE] = slot
+    then, was, cos, sin = (
+        layered.then[slot],
+        layered.was,
+        layered.film.rings[0, COS],
+        layered.film.rings[0, SIN],
+    )
     layered.time[RATE] = 1.0 / layered.time[STEP] if layered.time[STEP] > 0.0 and then[0] != NOTHING else 0.0
     was[:] = 0.0
     if layered.time[RATE] == 0.0:
@@ -149,7 +170,7 @@ def add_drift(layered: LayeredFilm, v: Floats, ambient: float, result: Floats) -
     way, kick, way_kick = layered.way[0], layered.way[1], 0.0
     size, stiff, step = 0.0, 0.0, layered.time[STEP]
     for k in range(4):
-        kick[k] = v[k] - layered.then[_VELOCITY + k]
+        kick[k] = v[k] - layered.then[int(layered.time[SOURCE]), _VELOCITY + k]
         way[k] = step * (v[k] + 0.5 * kick[k])
         kick[k] *= step
         way_kick += way[k] * way[k] + kick[k] * kick[k]

@@ -11,6 +11,7 @@ from bearing_fmu.contact.slice import CONTACT_RESULTS
 from bearing_fmu.films.tilted.corner_films import TiltedFilms
 from bearing_fmu.films.tilted.workspace import TiltedFilm, work_space
 from bearing_fmu.kernels.cells import AxialCells
+from bearing_fmu.kernels.unsymmetric_solver import ring_work
 from bearing_fmu.kernels.vector import padded
 from bearing_fmu.result import FIELDS, RESULTS
 
@@ -18,7 +19,10 @@ Floats = NDArray[np.float64]
 
 #: Cells along the axis for each row of the rigid film, their clustering at the ends, see `kernels.cells`, and
 #: grading of the columns, see `bore.place_rings`; chosen over states in balance and those of a turbine's run.
-CELLS, CLUSTERING, GRADING = 2, 2.1, 1.3
+CELLS, CLUSTERING, GRADING = 2, 2.25, 1.3
+#: Of `time`: length of the step; the rate 1/s that follows from it, 0 where nothing is remembered; which of
+#: two memories that is, see `deformation`.
+STEP, RATE, SOURCE = 0, 1, 2
 KEPT = 8  #: What stands before the nodes in what is remembered, see `deformation`
 
 
@@ -37,7 +41,9 @@ class LayeredFilm(NamedTuple):
     faces: Floats  #: (n + 1, 2 + NEAR) z of the axial faces, and what makes the pressure there
     explicit: Floats  #: (16,) work space
     kept: Floats  #: (m n',) pressure before a step
-    advected: Floats  #: (2, n, m') change of wedge and of flow by the deflection at the faces
+    advected: (
+        Floats  #: (3, n, m') change of the wedge by the deflection before and behind the faces, of the flow
+    )
     outer: (
         Floats  #: (3, 2, m') mean pressure of the outer halves over that in the last cells, and its changes
     )
@@ -45,13 +51,13 @@ class LayeredFilm(NamedTuple):
     lower: Floats  #: (m n',) couplings of the Jacobian
     upper: Floats  #: (m n',)
     blocks: Floats  #: (3, m n n') its factor
-    work: Floats  #: (2 n n' + 4 n',)
+    work: Floats  #: of `ring_work`
     usual: Floats  #: (RESULTS + CONTACT_RESULTS,) work space of two solutions
     stiff: Floats  #: (RESULTS,) work space, of the rigid bore
     change: Floats  #: (9,) how far the layer takes part, by q and v; the last: how far it did, 0 to 1
-    time: Floats  #: (2,) length of the step, s, 0 for a film in balance; the rate 1/s that follows from it
-    then: Floats  #: (KEPT + 2 n m,) what is remembered from before the step, see `deformation`
-    now: Floats  #: (KEPT + 2 n m,) what is remembered after it
+    time: Floats  #: (3,) length of the step, s, 0 for a film in balance; rate; which memory
+    then: Floats  #: (2, KEPT + 2 n m) what is remembered from before the step, see `deformation`
+    now: Floats  #: (2, KEPT + 2 n m) what is remembered after it
     from_rigid: Floats  #: (n, rows) rows of the layered film from those of the rigid one
     ahead: Floats  #: (n, m) how far it is guessed to have given way after the step
     drift: Floats  #: (4,) work space
@@ -103,19 +109,19 @@ def layered_film(
         faces=np.hstack((cells.faces[:, None], cells.between(cells.faces))),
         explicit=np.zeros(16),
         kept=np.zeros(m * width),
-        advected=np.zeros((2, n, length)),
+        advected=np.zeros((3, n, length)),
         outer=np.zeros((3, 2, length)),
         across=np.zeros((FIELDS, n + 1, length)),
         lower=np.zeros(m * width),
         upper=np.zeros(m * width),
         blocks=np.zeros((3, m * n * width)),
-        work=np.zeros(2 * n * width + 4 * width),
+        work=ring_work(n),
         usual=np.zeros(RESULTS + CONTACT_RESULTS),
         stiff=np.zeros(RESULTS),
         change=np.zeros(9),
-        time=np.zeros(2),
-        then=np.zeros(KEPT + 2 * n * m),
-        now=np.zeros(KEPT + 2 * n * m),
+        time=np.zeros(3),
+        then=np.zeros((2, KEPT + 2 * n * m)),
+        now=np.zeros((2, KEPT + 2 * n * m)),
         from_rigid=from_rigid,
         ahead=np.zeros((n, m)),
         drift=np.zeros(4),

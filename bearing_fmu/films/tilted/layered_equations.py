@@ -6,9 +6,9 @@ the gap; there the oil flows by Patir and Cheng's flow factor, and the wedge is 
 `bore.gap`. Around the circumference the equations are those of `reynolds`, now not linear in the
 pressure; along the axis they balance cells, see `kernels.cells`, since the pressure is not smooth where
 surfaces overlap at an end, and polynomials swing. Where a film presses the wall back it advects its own
-deflection, which is taken mostly from the upstream column. How far the wall had given way before a step,
-see `deformation`, makes its rate, which counts in the squeezed volume as that of the journal does, by
-implicit Euler.
+deflection, which is taken more from the upstream column, the steeper it is. How far the wall had
+given way before a step, see `deformation`, makes its rate, which counts in the squeezed volume as that of
+the journal does, by implicit Euler.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.edge import edge_flow
 from bearing_fmu.contact.layer import deflection, rough_flow
-from bearing_fmu.films.tilted.layered import LayeredFilm
+from bearing_fmu.films.tilted.layered import RATE, LayeredFilm
 from bearing_fmu.kernels.cells import NEAR
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
@@ -28,8 +28,9 @@ from bearing_fmu.result import CONDUCTANCE, GAP, OPEN, OPEN_1, OPEN_2, POWER, SQ
 
 Floats = NDArray[np.float64]
 
-#: Share of the upstream column in the deflection that is advected: with 1 it is smeared, with 1/2 it swings.
-UPSTREAM = 0.6
+#: What the upstream column counts for above 1/2 in the deflection that is advected, over the square of how
+#: steep that is: nothing is smeared where it is smooth, and no swing stays that goes from column to column.
+STEEP = 0.3
 _FLAT = 1e-12
 #: Change of the logarithm of an axial conductance by the gap; of the ends' by that in the middle of the last
 #: cell, by that at the end, and by how far the film presses back.
@@ -110,12 +111,22 @@ def _set_across(layered: LayeredFilm, ambient: float) -> None:
 
 
 @inner_kernel
+def _advected(here: float, there: float, steep: float) -> tuple[float, float, float]:
+    """Deflection advected over a face, with its changes by those at the columns before and behind."""
+    drop, both = here - there, here + there
+    ratio = drop / both if both > 0.0 else 0.0
+    more = steep * ratio * ratio
+    by_drop, by_both = 3.0 * more, -2.0 * more * ratio
+    return 0.5 * both + more * drop, 0.5 + by_drop + by_both, 0.5 - by_drop + by_both
+
+
+@inner_kernel
 def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
     """Wedge and conductance around at the faces, with their changes by the deflection."""
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     cell, sigma, soft = 2.0 * np.pi / m, layered.constants[1], layered.constants[2]
-    metric, from_here = film.rings[1, METRIC], UPSTREAM if speed >= 0.0 else 1.0 - UPSTREAM
+    metric, steep = film.rings[1, METRIC], STEEP if speed >= 0.0 else -STEEP
     for j in range(n):
         field, scale, pressure = film.face[:, j], film.weights[j] / cell * sigma**3, film.pressures[0, j]
         for i in range(m):
@@ -123,7 +134,8 @@ def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
             here = soft * max(pressure[i] + ambient, 0.0)
             there = soft * max(pressure[fore] + ambient, 0.0)
             h, h1 = field[GAP, i] + 0.5 * (here + there), 1.0
-            t, t1 = field[GAP, i] + from_here * here + (1.0 - from_here) * there, 1.0
+            gone, by_here, by_there = _advected(here, there, steep)
+            t, t1 = field[GAP, i] + gone, 1.0
             if h < REACH * sigma:
                 h, h1, _ = _gap(layered, h)
             if t < REACH * sigma:
@@ -135,8 +147,9 @@ def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
             field[OPEN, i], field[OPEN_1, i] = t, t1
             field[CONDUCTANCE, i] = scale / metric[i] * flow
             field[POWER, i] = slope * t / max(t1, _FLAT)
-            layered.advected[0, j, i] = film.weights[j] * speed * t1
-            layered.advected[1, j, i] = slope * field[CONDUCTANCE, i] * (pressure[fore] - pressure[i])
+            wedge = film.weights[j] * speed * t1
+            layered.advected[0, j, i], layered.advected[1, j, i] = by_here * wedge, by_there * wedge
+            layered.advected[2, j, i] = slope * field[CONDUCTANCE, i] * (pressure[fore] - pressure[i])
 
 
 @inner_kernel
@@ -199,8 +212,7 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, who
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
     block, soft, square = n * width, layered.constants[2], 0.0
-    rate, cell = layered.time[1], 2.0 * np.pi / m
-    from_here = UPSTREAM if speed >= 0.0 else 1.0 - UPSTREAM
+    rate, cell = layered.time[RATE], 2.0 * np.pi / m
     cos, sin, metric = film.rings[1, COS], film.rings[1, SIN], film.rings[0, METRIC]
     b, sides, pressures = layered.blocks[0], film.sides, film.pressures[0]
     _set_columns(layered, ambient)
@@ -212,7 +224,7 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, who
     for j in range(n):
         t, along, squeeze = film.face[OPEN, j], film.face[CONDUCTANCE, j], film.column[SQUEEZE, j]
         t1, t2 = film.column[OPEN_1, j], film.column[OPEN_2, j]
-        wedge, bent = layered.advected[0, j], layered.advected[1, j]
+        wedge, wedge_behind, bent = layered.advected[0, j], layered.advected[1, j], layered.advected[2, j]
         weight = film.weights[j]
         low, high = layered.across[CONDUCTANCE, j], layered.across[CONDUCTANCE, j + 1]
         ux, uy = v[0] + v[3] * film.nodes[j], v[1] - v[2] * film.nodes[j]
@@ -227,8 +239,8 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, who
                 here = soft if pressures[j, i] + ambient > 0.0 else 0.0
                 there = soft if pressures[j, fore] + ambient > 0.0 else 0.0
                 # flow at the face after column i: by the pressure of column i, and less that of the next
-                own = along[i] + here * (from_here * wedge[i] - 0.5 * bent[i])
-                next_ = along[i] - there * ((1.0 - from_here) * wedge[i] - 0.5 * bent[i])
+                own = along[i] + here * (wedge[i] - 0.5 * bent[i])
+                next_ = along[i] - there * (wedge_behind[i] - 0.5 * bent[i])
                 layered.lower[at], layered.upper[at] = own, next_
                 b[i * block + j * width + j] += own
                 b[i * block + j * width + j] += 2.0 * weight * here * (t2[i] * squeeze[i] + t1[i] * gives)

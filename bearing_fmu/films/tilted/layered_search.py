@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.contact.edge import edge_pressure
-from bearing_fmu.films.tilted.deformation import RATE, bring_over
-from bearing_fmu.films.tilted.layered import LayeredFilm
+from bearing_fmu.films.tilted.deformation import bring_over
+from bearing_fmu.films.tilted.layered import RATE, LayeredFilm
 from bearing_fmu.films.tilted.layered_equations import linearise, shape_across
 from bearing_fmu.films.tilted.lines import SHARE, wrench_of
 from bearing_fmu.films.tilted.reynolds import integrate, shape_gap, unfold
@@ -38,7 +38,7 @@ _PLAIN, _QUICK, _CAREFUL, _HALF = 24, 30, 400, 10
 _SLOW = 0.35
 #: Of a step of the pressure: one more would change it by about the square of that, and one more is made;
 #: where the wall is followed, and there with an old factor.
-_PRECISION, _NEWTON, _CHORD = 3e-4, 3e-3, 1e-4
+_PRECISION, _NEWTON, _CHORD = 3e-5, 1e-3, 1e-3
 #: Roughnesses by which a step presses the wall back at most, in either search.
 _STEPS = (3.0, 300.0)
 #: Rate at which the wall gives way at first, over the flow's, and where it is none.

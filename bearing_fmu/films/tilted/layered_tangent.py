@@ -60,13 +60,13 @@ def _add_pressure(
 def _press(
     layered: LayeredFilm, line: int, q: Floats, ambient: float, grip: float, scale: Floats, pressed: Floats,
     contact: Floats,
-) -> bool:  # fmt: skip
+) -> tuple[int, int]:  # fmt: skip
     """Add the asperities' wrench on a line; their pressure times area, its slope by the gap and direction.
 
     Returns
     -------
-    bool
-        Whether they touch.
+    tuple of int
+        From which column to which they touch.
     """
     film = layered.film
     m = film.circle.shape[2]
@@ -76,10 +76,10 @@ def _press(
     z, weight = layered.places[0, line], layered.places[1, line] * 2.0 * np.pi / m
     ex, ey, near = q[0] + q[3] * z, q[1] - q[2] * z, REACH * sigma
     if 1.0 - np.hypot(ex, ey) >= near:
-        return False
+        return 0, 0
     cos, sin, metric = film.rings[0, COS], film.rings[0, SIN], film.rings[0, METRIC]
     part = film.row[:4]
-    touches = False
+    low, high = m, 0
     for i in range(m):
         pressed[0, i], pressed[1, i] = 0.0, 0.0
         s = 1.0 - ex * cos[i] - ey * sin[i]
@@ -91,7 +91,7 @@ def _press(
         s += soft * max(pressure, 0.0)
         if s >= near:
             continue
-        touches = True
+        low, high = min(low, i), i + 1
         back, slope, _ = deflection(s / sigma, layered.constants[0], layered.table)
         area = weight * metric[i]
         pressed[0, i], pressed[1, i] = area * sigma * back / soft, area * slope / soft
@@ -102,14 +102,14 @@ def _press(
                 at, push = (i * 4 + k) * width, pressed[1, i] * soft * part[k]
                 for near_by in range(NEAR):
                     film.sides[at + row + near_by] += push * layered.lines[line, 1 + near_by]
-    return touches
+    return low, high
 
 
 @inner_kernel
 def _press_end(
     layered: LayeredFilm, end: int, q: Floats, ambient: float, grip: float, scale: Floats, pressed: Floats,
     contact: Floats,
-) -> bool:  # fmt: skip
+) -> tuple[int, int]:  # fmt: skip
     """As `_press`, on the outer half of a last cell, where the pressure falls as `contact.edge` has it.
 
     The slope is that by the gap in the middle of the cell, and then by the one at its end.
@@ -122,7 +122,7 @@ def _press_end(
     z, weight = 0.5 * (film.nodes[row] + film.nodes[n + end]), np.pi / m * film.weights[row]
     metric, gap, at_end = film.rings[0, METRIC], film.column[GAP, row], layered.across[GAP, face]
     near, press, part = REACH * sigma, soft * max(ambient, 0.0), film.row[:4]
-    touches = False
+    low, high = m, 0
     for i in range(m):
         pressed[0, i], pressed[1, i], pressed[2, i] = 0.0, 0.0, 0.0
         s_end = at_end[i] + press
@@ -130,7 +130,7 @@ def _press_end(
         s = gap[i] + soft * max(pressure, 0.0)
         if s >= near and s_end >= near:
             continue
-        touches = True
+        low, high = min(low, i), i + 1
         drop = max(s - gap[i] - press, 0.0) / sigma
         back, by_inside, by_end, by_press = edge_back(s / sigma, s_end / sigma, drop, layered.edge)
         area = weight * metric[i]
@@ -143,7 +143,7 @@ def _press_end(
             push = area * (by_inside + (by_press if drop > 0.0 else 0.0))
             for k in range(4):
                 film.sides[(i * 4 + k) * width + row] += push * part[k]
-    return touches
+    return low, high
 
 
 @stage
@@ -172,13 +172,13 @@ def _touch(
     for line in range(lines + 2):
         end = line - lines
         if end < 0:
-            touches = _press(layered, line, q, ambient, grip, scale, pressed, contact)
+            low, high = _press(layered, line, q, ambient, grip, scale, pressed, contact)
             z = place = layered.places[0, line]
         else:
-            touches = _press_end(layered, end, q, ambient, grip, scale, pressed, contact)
+            low, high = _press_end(layered, end, q, ambient, grip, scale, pressed, contact)
             place = film.nodes[0 if end == 0 else n - 1]
             z = 0.5 * (place + film.nodes[n + end])
-        if not touches and end < 0:
+        if low >= high and end < 0:
             continue
         for k in range(4):
             motion, stretching = film.rings[0, MOTION + k], film.rings[0, STRETCHING + k]
@@ -186,7 +186,7 @@ def _touch(
             for side in range(1 if end < 0 else 2):
                 slope = pressed[1 + side]
                 gap_change(film, None, q, k, 0, place if side == 0 else film.nodes[n + end], change)
-                for i in range(m):
+                for i in range(low, high):
                     if pressed[0, i] > 0.0:
                         dx, dy = -(cos[i] - grip * sin[i]), -(sin[i] + grip * cos[i])
                         grown = slope[i] * change[i]

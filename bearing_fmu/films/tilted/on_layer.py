@@ -27,8 +27,8 @@ from bearing_fmu.film import Solver
 from bearing_fmu.film_with_memory import FilmWithMemory
 from bearing_fmu.films.corners import LAYERED_AWAY, LAYERED_SPREAD, leaving, mix, rise
 from bearing_fmu.films.tilted.corner_films import GRIDS, PLACE, SHARE, USUAL, tilted_films
-from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, STEP, remember
-from bearing_fmu.films.tilted.layered import CELLS, CLUSTERING, GRADING, LayeredFilm, layered_film
+from bearing_fmu.films.tilted.deformation import OF_RIGID, ON_LAYER, SPREAD_OUT, forget, remember
+from bearing_fmu.films.tilted.layered import CELLS, CLUSTERING, GRADING, STEP, LayeredFilm, layered_film
 from bearing_fmu.films.tilted.layered_search import solve_layered
 from bearing_fmu.films.tilted.layered_tangent import add_layered_tangent
 from bearing_fmu.films.tilted.solve import solve_one, solve_tilted
@@ -104,8 +104,7 @@ def _solve_soft(
         status = solve_layered(film, q, v, speed, scales.ambient, scales.sigma, part, of, result)
         if status != OK:
             break
-        if (spread == 1) == (share >= 0.5):
-            remember(film, film.film, of, v, scales.ambient)
+        remember(film, film.film, of, v, scales.ambient)
         contact[:] = 0.0
         add_layered_tangent(film, q, v, speed, scales.ambient, grip, scales.force, half, result, contact)
         if spread == 0 and share > 0.0:
@@ -135,6 +134,7 @@ def _solve_on_layer(
 ) -> int:
     gap, share = least_gap(None, q)[0], 1.0
     film.change[8] = share
+    forget(film)
     if gap > _CLOSE[0] * scales.sigma:
         status = solve_tilted(film.rigid, None, scales, q, v, speed, result)
         if status != OK:
@@ -193,9 +193,9 @@ class FilmOnLayer(FilmWithMemory):
             layered.time[STEP] = dt if state.size else 0.0
             layered.counts[:] = 0.0
             if state.size:
-                layered.then[:] = state
+                layered.then[:] = state.reshape(layered.then.shape)
             status = self._kernel(inputs, offset, out, *data)
-            return status, layered.now.copy()
+            return status, layered.now.flatten()
         finally:
             self.bring_back(space)
 

@@ -10,7 +10,8 @@ import pytest
 from bearing_fmu.contact.asperities import asperity_integral
 from bearing_fmu.contact.greenwood_tripp import slice_table
 from bearing_fmu.contact.layer import bounded_pressure, deflection, layer_table, layered_pressure, rough_flow
-from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring
+from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, ring_work, solve_ring
+from bearing_fmu.kernels.vector import padded
 from tests.bearing_fmu.bearings import TURBINE
 from tests.faults import fault
 
@@ -65,10 +66,19 @@ def test_a_yielding_slice_presses_less_than_a_rigid_one():
 
 
 @pytest.mark.slow  # compiles for some ten seconds
-def test_ring_of_unsymmetric_blocks():
+@pytest.mark.parametrize("diagonal", [4.0, 0.0])
+@pytest.mark.parametrize("n", [4, 5, 8, 10, 16])
+def test_ring_of_unsymmetric_blocks(n, diagonal):
+    """Also without anything on the diagonal, where pairs of pivots there do not serve.
+
+    Columns are eliminated in turn, without pivots among them, which costs digits of such a matrix.
+    """
     rng = np.random.default_rng(3)
-    count, n, width, sides = 7, 5, 8, 2
-    blocks = rng.normal(size=(count, n, n)) * 0.3 + 4.0 * np.eye(n)
+    count, width, sides = 7, padded(n), 2
+    blocks = rng.normal(size=(count, n, n)) * 0.3 + diagonal * np.eye(n)
+    if diagonal == 0.0:
+        blocks[:, range(n), range(n)] = 0.0
+        blocks[:, ::2, 1::2] = blocks[:, 1::2, ::2] = 0.0
     lower, upper = rng.uniform(0.2, 1.0, size=(2, count, n))
     full = np.zeros((count, n, count, n))
     for i in range(count):
@@ -81,13 +91,13 @@ def test_ring_of_unsymmetric_blocks():
     b[:, :, :n], low[:, :n], up[:, :n], x[:, :, :n] = blocks.transpose(0, 2, 1), lower, upper, right
     b, low, up, x = b.ravel(), low.ravel(), up.ravel(), x.ravel()
     w, y = np.zeros((2, count * n * width))
-    work = np.zeros(2 * (n + 1) * width)
+    work = ring_work(n)
     assert factorise_ring(b, low, up, w, y, work, count, n, width)
     solve_ring(b, low, up, w, y, x, work, count, n, width, sides)
     found = x.reshape(count, sides, width)[:, :, :n]
     for k in range(sides):
         expected = np.linalg.solve(full.reshape(count * n, -1), right[:, k].ravel())
-        np.testing.assert_allclose(found[:, k].ravel(), expected, rtol=1e-11)
+        np.testing.assert_allclose(found[:, k].ravel(), expected, rtol=1e-11 if diagonal else 1e-8)
 
 
 @fault(

@@ -110,8 +110,11 @@ def test_vector_operations_against_numpy(name):
     """Compiled afresh, not taken from the cache."""
     operation = getattr(vector, name)
     rng = np.random.default_rng(4)
-    y, a, b = rng.normal(size=(3, 40))
-    if "rows" in name:
+    y, a, b = rng.normal(size=(3, 100))
+    if "tile" in name:
+        arguments = (9, 10, b, 40, a, 3, 2, 9, b, 1, 5, 4)
+        compiled = numba.njit(lambda y, a, b: operation(y, 9, 10, b, 40, a, 3, 2, 9, b, 1, 5, 4))
+    elif "rows" in name:
         arguments = (9, a, 3, 2, b, 1, 5, 4)
         compiled = numba.njit(lambda y, a, b: operation(y, 9, a, 3, 2, b, 1, 5, 4))
     else:
