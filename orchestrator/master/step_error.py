@@ -47,13 +47,13 @@ def error_of_step(start: Array, end: Array, tangent: Array, step: float) -> Arra
     ndarray (bearings, 4)
     """
     missed = np.empty((len(start), 4))
-    _missed(start, end, tangent, step, missed)
+    _missed(start, end, tangent, step, np.empty((2, 4)), missed)
     return missed
 
 
 @compiled
-def _missed(start: Array, end: Array, tangent: Array, step: float, missed: Array) -> None:
-    of_position, of_velocity = np.empty(4), np.empty(4)
+def _missed(start: Array, end: Array, tangent: Array, step: float, room: Array, missed: Array) -> None:
+    of_position, of_velocity = room[0], room[1]
     for b in range(len(missed)):
         for j in range(4):
             turned = end[b, 4 + j] - start[b, 4 + j]

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.kernels.loops import compiled
+from fmus.kernels.loops import compiled, copy
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -96,9 +96,9 @@ def note_record(
         if not waits[b]:
             first[b] = row + 1
         elif first[b] == row:
-            values[b, :count] = responses[b]
-            values[b, count:] = details[b]
-            where[b] = motion[b]
+            copy(responses[b], values[b])
+            copy(details[b], values[b, count:])
+            copy(motion[b], where[b])
 
 
 @compiled
@@ -134,9 +134,12 @@ def note_evaluations(
             numbers[held, FIRST_RECORD], numbers[held, LAST_RECORD] = first[b], rows
             numbers[held, BEARING] = b
             instants[held, 0], instants[held, 1] = stands[b], end
-            told[held, 0], motions[held, 0] = values[b], where[b]
-            told[held, 1, :count], told[held, 1, count:] = responses[b], details[b]
-            motions[held, 1], offsets[held] = motion[b], centres[b]
+            copy(values[b], told[held, 0])
+            copy(responses[b], told[held, 1])
+            copy(details[b], told[held, 1, count:])
+            copy(where[b], motions[held, 0])
+            copy(motion[b], motions[held, 1])
+            copy(centres[b], offsets[held])
             first[b] = rows
             held += 1
         stands[b] = end

@@ -14,6 +14,7 @@ components (Sherman, Morrison and Woodbury); the result does not depend on r.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -40,6 +41,12 @@ class Equilibrium(Generic[Scalar]):
     shape: NDArray[Scalar]
     journals: NDArray[Scalar]
     wrench: NDArray[Scalar]
+
+    @cached_property
+    def journals_at_rest(self) -> NDArray[Scalar]:
+        """Displacements of the journals and their velocities, which are 0, (n_b, 8)."""
+        positions = self.journals.reshape(-1, 4)
+        return np.hstack([positions, np.zeros_like(positions)])
 
 
 @dataclass(frozen=True, eq=False)

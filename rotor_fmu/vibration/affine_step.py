@@ -24,20 +24,48 @@ steps several times as long as 2 sqrt(3 m / k) may still be upset, and the defec
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
-from rotor_fmu.vibration.law_loops import begin, end_wrenches, react
+from rotor_fmu.vibration.law_loops import begin, end_wrenches, mix, react
 from rotor_fmu.vibration.trail import Extrapolation, Trail
+from rotor_fmu.vibration.whirl_coordinates import WhirlMaps
+from rotor_fmu.vibration.whirl_loops import MIXED, UNSOLVED
+from rotor_fmu.vibration.whirl_loops import step as whirl_step
 
 Array = NDArray[np.float64]
 
 
+_NOT_FINITE = "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
+
+
 class NoFiniteResult(ArithmeticError):
     """The step has no finite result; the state before it stands."""
+
+
+class Step(NamedTuple):
+    """A step that was taken.
+
+    Attributes
+    ----------
+    motion : ndarray, (2 m,)
+        At its end.
+    journals : ndarray, (n_b, 8)
+        Their motion there.
+    nearer : ndarray, (4 n_b,), or None
+        c / 2 of each wrench component, for `AffineStep.held`; None where all ran linearly.
+    trail : Trail or None
+        Of the extrapolation, if there is one.
+    """
+
+    motion: Array
+    journals: Array
+    nearer: Array | None
+    trail: Trail | None
 
 
 class AffineStep:
@@ -51,9 +79,10 @@ class AffineStep:
 
     def __init__(self, bearings: int) -> None:
         loads = 4 * bearings
-        self._law = np.zeros((bearings, 4, 8))
-        self._matrix = np.zeros((loads, loads))
-        self._nothing = np.zeros(loads)
+        self._law, self._offset = np.zeros((bearings, 4, 8)), np.zeros((bearings, 4))
+        self._matrix, self._sizes = np.zeros((loads, loads)), np.zeros((bearings + 1, bearings))
+        self._start, self._end, self._nearer = np.zeros(loads), np.zeros(loads), np.zeros(loads)
+        self._moves = np.zeros((bearings, 8, loads))
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
@@ -102,7 +131,7 @@ class AffineStep:
         kick: Array | None,
         static: Equilibrium[np.float64],
         beyond: Extrapolation | None = None,
-    ) -> tuple[Array, Array | None, Trail | None]:
+    ) -> Step:
         """Take a step under the law last set.
 
         Parameters
@@ -112,7 +141,7 @@ class AffineStep:
         motion : ndarray, (2 m,)
             At the start, in these coordinates.
         journals : ndarray, (n_b, 8)
-            `journal_motion` at the start.
+            Their motion at the start.
         F0 : ndarray, (n_b, 4)
             Constant part of the law.
         rotation : ndarray, (4,)
@@ -126,51 +155,70 @@ class AffineStep:
 
         Returns
         -------
-        motion : ndarray, (2 m,)
-            At the end.
-        nearer : ndarray, (4 n_b,), or None
-            c / 2 of each wrench component, for `held`; None where all ran linearly.
-        trail : Trail or None
-            Of the extrapolation, if there is one.
+        Step
+            What it leads to.
 
         Raises
         ------
         NoFiniteResult
             If the law has no solution at the end of the step, or numbers are not finite.
         """
-        offset = F0.reshape(-1) - static.wrench
-        start, shares, compliance = np.empty_like(offset), np.empty_like(offset), maps.compliance
+        offset = self._offset.reshape(-1)
+        np.subtract(F0, static.wrench.reshape(-1, 4), out=self._offset)
+        if isinstance(maps, WhirlMaps) and beyond is None:
+            return self._whirl(maps, motion, journals, rotation, kick, static)
+        matrix, start, compliance = self._matrix, self._start, maps.compliance
         own = compliance.own, compliance.mixed
-        nearer = shares if begin(self._law, offset, journals, *own, start, shares) else None
-        if nearer is None:
+        mixes = begin(self._law, offset, journals, *own, matrix, self._sizes, start, self._nearer)
+        moves, share = compliance.end, np.ones(1)
+        if not mixes:
             end = maps.coast(motion, start, rotation)
         else:
+            nearer = self._nearer
+            moves, share = self._moves, 1.0 - 2.0 * nearer
+            mix(compliance.start, compliance.end, nearer, moves)
             later = nearer * start
             end = maps.coast(motion, start - later, rotation)
             maps.add_end(later, end)
         if kick is not None:
             end += kick
         journals = journal_motion(coordinates, end, static)
-        share = 1.0 if nearer is None else 1.0 - 2.0 * nearer
-        of_start, of_end = compliance.start, compliance.end
-        at_start = self._nothing if nearer is None else nearer
         if beyond is not None:
             journals[:, 4:] += beyond.trail(-share * start).lead.reshape(-1, 4)
-            of_end = of_start = of_end + at_start * (of_start - of_end)
-            of_end[:, 4:] += beyond.compliance(share).reshape(of_end[:, 4:].shape)
-        wrench = np.empty_like(offset)
-        solved = end_wrenches(self._law, offset, journals, of_start, of_end, at_start, self._matrix, wrench)
-        if nearer is None:
+            moves = moves.copy()
+            moves[:, 4:] += beyond.compliance(share).reshape(moves[:, 4:].shape)
+        wrench = self._end
+        solved = end_wrenches(self._law, offset, moves, matrix, journals, wrench)
+        if not mixes:
             maps.add_end(wrench, end)
         else:
             sooner = nearer * wrench
             maps.add_start(sooner, end)
             maps.add_end(wrench - sooner, end)
         if not (solved and math.isfinite(np.dot(end, end))):
-            raise NoFiniteResult(
-                "rotor: the step has no finite result; check F0, K and C of the bearings, or halve the step"
-            )
-        return end, nearer, None if beyond is None else beyond.trail(share * (wrench - start))
+            raise NoFiniteResult(_NOT_FINITE)
+        trail = None if beyond is None else beyond.trail(share * (wrench - start))
+        return Step(end, journals, nearer.copy() if mixes else None, trail)
+
+    def _whirl(
+        self,
+        maps: WhirlMaps,
+        motion: Array,
+        journals: Array,
+        rotation: Array,
+        kick: Array | None,
+        static: Equilibrium[np.float64],
+    ) -> Step:
+        """Take it in one compiled loop."""
+        end, where = np.empty_like(motion), np.empty_like(journals)
+        kick = maps.no_kick if kick is None else kick
+        room = self._law, self._matrix, self._sizes, self._start, self._end, self._nearer, self._moves
+        about = self._offset.reshape(-1), static.journals_at_rest, rotation, kick, motion, journals
+        given: tuple[Array, ...] = *maps.of_step, *room, *about, end, where
+        done = whirl_step(*given)
+        if done == UNSOLVED:
+            raise NoFiniteResult(_NOT_FINITE)
+        return Step(end, where, self._nearer.copy() if done == MIXED else None, None)
 
     def _reacting(self, offset: Array, journals: Array) -> Array:
         """Wrenches under the law: an offset less what stiffness and damping take off it."""
@@ -184,7 +232,7 @@ def journal_motion(
 ) -> Array:
     """Journal displacements and velocities (q, v) of a motion about an equilibrium, (n_b, 8)."""
     y = coordinates.journals(motion).reshape(-1, 8)
-    y[:, :4] += static.journals.reshape(-1, 4)
+    y += static.journals_at_rest
     if trail is not None:
         y[:, 4:] += trail.lead.reshape(-1, 4)
     return y

@@ -42,21 +42,22 @@ def _few_and_soft(law: Array, own: Array) -> bool:
 
 
 @fused
-def stiffness_numbers(law: Array, own: Array, mixed: Array, numbers: Array) -> bool:
-    """Overwrite numbers, (n,), with those of `coordinates.Compliance.stiffness_numbers`.
+def stiffness_numbers(law: Array, own: Array, mixed: Array, product: Array, sizes: Array) -> bool:
+    """Overwrite the last of n + 1 rows of sizes with those of `coordinates.Compliance.stiffness_numbers`.
 
-    False, and they are left, if a cruder bound shows that none is above 1.
+    The other rows, and product, (4 n, 4 n), are memory.  False, and no numbers are there, if a cruder bound
+    shows that none is above 1.
     """
     count = len(law)
     if _few_and_soft(law, own):
         return False
-    product = np.zeros((4 * count, 4 * count))
     for row in range(4 * count):
+        for c in range(4 * count):
+            product[row, c] = 0.0
         for j in range(4):
             stiffness = law[row // 4, row % 4, j]
             for c in range(4 * count):
                 product[row, c] += stiffness * mixed[4 * (row // 4) + j, c]
-    sizes = np.zeros((count, count))
     for one in range(count):
         for other in range(count):
             square = 0.0
@@ -68,30 +69,39 @@ def stiffness_numbers(law: Array, own: Array, mixed: Array, numbers: Array) -> b
         size, total = max(sizes[one, one], _TINY), 0.0
         for other in range(count):
             total += sizes[one, other] / math.sqrt(size * max(sizes[other, other], _TINY))
-        numbers[one] = size * total
+        sizes[count, one] = size * total
     return True
 
 
 @fused
-def half_shares(law: Array, own: Array, mixed: Array, nearer: Array) -> bool:
+def half_shares(law: Array, own: Array, mixed: Array, product: Array, sizes: Array, nearer: Array) -> bool:
     """Overwrite half of the shares of the mean, (4 n,), that stiffness asks for; False if all are 0."""
-    numbers = np.zeros(len(law))
-    if not stiffness_numbers(law, own, mixed, numbers):
+    count, mixes = len(law), False
+    if not stiffness_numbers(law, own, mixed, product, sizes):
         return False
-    mixes = False
-    for b in range(len(law)):
-        mixes |= numbers[b] > 1.0
-        nearer[4 * b : 4 * b + 4] = 0.5 - 0.5 / max(numbers[b], 1.0)
+    for b in range(count):
+        number = sizes[count, b]
+        mixes |= number > 1.0
+        for i in range(4 * b, 4 * b + 4):
+            nearer[i] = 0.5 - 0.5 / max(number, 1.0)
     return mixes
 
 
 @fused
 def begin(
-    law: Array, offset: Array, journals: Array, own: Array, mixed: Array, wrench: Array, nearer: Array
+    law: Array,
+    offset: Array,
+    journals: Array,
+    own: Array,
+    mixed: Array,
+    product: Array,
+    sizes: Array,
+    wrench: Array,
+    nearer: Array,
 ) -> bool:
     """Overwrite wrenches as `react`, and the shares of the mean as `half_shares`; return what that does."""
     _react(law, offset, journals, wrench)
-    return half_shares(law, own, mixed, nearer)
+    return half_shares(law, own, mixed, product, sizes, nearer)
 
 
 @fused
@@ -101,15 +111,18 @@ def react(law: Array, offset: Array, journals: Array, wrench: Array) -> None:
 
 
 @fused
+def mix(of_start: Array, of_end: Array, nearer: Array, moves: Array) -> None:
+    """Overwrite what wrenches move the journals by where a share of each counts at the start instead."""
+    for b in range(len(moves)):
+        for j in range(8):
+            for c in range(len(nearer)):
+                end = of_end[b, j, c]
+                moves[b, j, c] = end + nearer[c] * (of_start[b, j, c] - end)
+
+
+@fused
 def end_wrenches(
-    law: Array,
-    offset: Array,
-    journals: Array,
-    of_start: Array,
-    of_end: Array,
-    nearer: Array,
-    matrix: Array,
-    wrench: Array,
+    law: Array, offset: Array, moves: Array, matrix: Array, journals: Array, wrench: Array
 ) -> bool:
     """Overwrite wrenches with those that a law has with what they do themselves.
 
@@ -117,14 +130,12 @@ def end_wrenches(
     ----------
     law, offset
         As above.
-    journals : ndarray
-        At the end of the step without those wrenches.
-    of_start, of_end : ndarray, (n, 8, 4 n)
-        What wrenches at both ends move the journals by.
-    nearer : ndarray, (4 n,)
-        Share of each that counts at the start instead.
+    moves : ndarray, (n, 8, 4 n)
+        What wrenches at the end move the journals by.
     matrix : ndarray, (4 n, 4 n)
         Memory.
+    journals : ndarray
+        At the end of the step without those wrenches; overwritten with them.
     wrench : ndarray
         Overwritten.
 
@@ -135,20 +146,22 @@ def end_wrenches(
     """
     size = len(offset)
     _react(law, offset, journals, wrench)
-    moved = np.empty(size)
     for b in range(len(law)):
-        matrix[4 * b : 4 * b + 4] = 0.0
-        for j in range(8):
-            start, end = of_start[b, j], of_end[b, j]
+        move = moves[b]
+        for i in range(4):
+            f, row = law[b, i], matrix[4 * b + i]
             for c in range(size):
-                moved[c] = end[c] + nearer[c] * (start[c] - end[c])
-            for i in range(4):
-                factor, row = law[b, i, j], matrix[4 * b + i]
-                for c in range(size):
-                    row[c] += factor * moved[c]
-        for i in range(4 * b, 4 * b + 4):
-            matrix[i, i] += 1.0
-    return _solved(matrix, wrench)
+                row[c] = (f[0] * move[0, c] + f[1] * move[1, c] + f[2] * move[2, c] + f[3] * move[3, c]) + (
+                    f[4] * move[4, c] + f[5] * move[5, c] + f[6] * move[6, c] + f[7] * move[7, c]
+                )
+            row[4 * b + i] += 1.0
+    if not _solved(matrix, wrench):
+        return False
+    for b in range(len(law)):
+        for j in range(8):
+            for c in range(size):
+                journals[b, j] += moves[b, j, c] * wrench[c]
+    return True
 
 
 @inlined
@@ -186,7 +199,9 @@ def _solved(matrix: Array, right: Array) -> bool:
 def compile_now() -> None:
     """Compile, or fetch what is kept, so that no step has to wait for it."""
     law, square, wrench, journals = np.zeros((1, 4, 8)), np.zeros((4, 4)), np.zeros(4), np.zeros((1, 8))
-    moved = np.zeros((1, 8, 4))
+    moves = np.zeros((1, 8, 4))
     react(law, wrench, journals, np.zeros(4))
-    begin(law, wrench, journals, np.zeros((1, 4, 4)), square, np.zeros(4), np.zeros(4))
-    end_wrenches(law, wrench, journals, moved, moved, np.zeros(4), square, np.zeros(4))
+    begin(
+        law, wrench, journals, np.zeros((1, 4, 4)), square, square, np.zeros((2, 1)), np.zeros(4), np.zeros(4)
+    )
+    end_wrenches(law, wrench, moves, square, journals, np.zeros(4))

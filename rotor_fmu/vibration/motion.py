@@ -35,7 +35,6 @@ class RotorMotion:
     """
 
     _state: RotorState
-    _journals: Array
     _modal: Array | None
     _displaced: Array | None
     _seen: Array | None
@@ -112,6 +111,12 @@ class RotorMotion:
         """Journal displacements q and velocities v now, (n_b, 8) in m, rad, m/s, rad/s."""
         housings = self.housings()
         return self._journals.copy() if housings is None else self._journals + housings
+
+    @property
+    def _journals(self) -> Array:
+        """Motion of the journals in their housings."""
+        assert self._state.journals is not None
+        return self._state.journals
 
     def housings(self) -> Array | None:
         """Displacements and velocities of the housings now, (n_b, 8); None where they stand rigidly."""
@@ -194,12 +199,14 @@ class RotorMotion:
                 "rotor: the state was saved by another build or kind of processor, on which the modes of the "
                 "shaft come out in other vectors; go on there, or start anew"
             )
-        self._go_on(coordinates, state, None)
+        if state.journals is None:
+            moved = journal_motion(coordinates, state.motion, state.static, state.trail)
+            state = replace(state, journals=moved)
+        self._go_on(state, None)
 
-    def _go_on(self, coordinates: Coordinates, state: RotorState, seen: Array | None) -> None:
-        """Take on a state in coordinates of this rotor, which say the journals' motion."""
+    def _go_on(self, state: RotorState, seen: Array | None) -> None:
+        """Take on a state in coordinates of this rotor."""
         self._state, self._modal, self._displaced, self._seen = state, None, None, seen
-        self._journals = journal_motion(coordinates, state.motion, state.static, state.trail)
 
     def _angle_at(self, time: float) -> float:
         return math.fmod(self._speed * time, 2.0 * math.pi)

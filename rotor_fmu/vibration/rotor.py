@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from rotor_fmu.reduction.reduce import Method
 from rotor_fmu.train.train import Train
 from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
-from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
+from rotor_fmu.vibration.affine_step import AffineStep
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
 from rotor_fmu.vibration.drive import NOTHING, Braking
 from rotor_fmu.vibration.motion import RotorMotion
@@ -185,7 +185,7 @@ class Rotor(RotorMotion):
         self._stepper.set_law(K, C)
         state, journals, motion = self._state, self._journals, self._motion_in(coordinates)
         beyond = None if self.shaft.massless is None else Extrapolation(self.shaft, state.trail, H)
-        end, nearer, trail = self._stepper.advance(
+        end, after, nearer, trail = self._stepper.advance(
             coordinates, maps, motion, journals, F0, rotation, kick, state.static, beyond
         )
         self.holds_mean = nearer is not None
@@ -197,7 +197,6 @@ class Rotor(RotorMotion):
             given = self._spin.work(t, turning, (self.seen(), seen))
             given += H * maps.power if isinstance(maps, DetunedMaps) else 0.0
         if self._ledger is not None:
-            after = journal_motion(coordinates, end, state.static, trail)
             held = self._stepper.held(nearer, F0, journals, after, state.static)
             before = self.modal_state()
             if turning.start == turning.end:
@@ -213,8 +212,8 @@ class Rotor(RotorMotion):
             owed = self._spin.account(turning, ends, now, state.owed, given).owed
         turned = math.fmod(turning.angle_at(H), 2.0 * math.pi)
         where = coordinates.speed, coordinates.basis
-        then = RotorState(end, turned, state.static, *where, work, speed, owed, t + H, trail)
-        self._go_on(coordinates, then, seen)
+        then = RotorState(end, turned, state.static, *where, work, speed, owed, t + H, trail, after)
+        self._go_on(then, seen)
 
     def _at(self, turning: Turning, t: float) -> tuple[Coordinates, Maps, Array, Array | None]:
         """Coordinates and maps of a step, rotation of the unbalances, and the kick of what appears in it."""

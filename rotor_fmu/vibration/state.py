@@ -15,8 +15,8 @@ from rotor_fmu.vibration.work import Work
 
 Array = NDArray[np.float64]
 
-_HEADER = struct.Struct("<8s4q12d16s")
-_MAGIC = b"rotor\0\0\6"  # the last byte is the version of the layout
+_HEADER = struct.Struct("<8s5q12d16s")
+_MAGIC = b"rotor\0\0\7"  # the last byte is the version of the layout
 
 
 @dataclass(eq=False, slots=True)  # not frozen: one is made at every step, and that takes five times as long
@@ -45,6 +45,8 @@ class RotorState:
         Instant [s].
     trail : Trail or None
         Of the step before, where there are journals without mass.
+    journals : ndarray, (n_b, 8), or None
+        Their motion; None where it is yet to be found from the vibration.
     """
 
     motion: Array
@@ -57,12 +59,14 @@ class RotorState:
     owed: float = 0.0
     time: float = 0.0
     trail: Trail | None = None
+    journals: Array | None = None
 
     def to_bytes(self) -> bytes:
         """Write, little endian, without loss."""
         static, trail = self.static, self.trail
         behind = (trail.slope, trail.lead) if trail is not None else ()
-        sizes = (len(self.motion), len(static.shape), len(static.wrench), len(behind))
+        where = (self.journals,) if self.journals is not None else ()
+        sizes = (len(self.motion), len(static.shape), len(static.wrench), len(behind), len(where))
         speeds = (math.nan if speed is None else speed for speed in (self.speed, self.turning))
         header = _HEADER.pack(
             _MAGIC,
@@ -75,7 +79,7 @@ class RotorState:
             *self.work,
             self.basis,
         )
-        arrays = (self.motion, static.shape, static.journals, static.wrench, *behind)
+        arrays = (self.motion, static.shape, static.journals, static.wrench, *behind, *where)
         return header + b"".join(a.astype("<f8").tobytes() for a in arrays)
 
     @classmethod
@@ -89,16 +93,17 @@ class RotorState:
         """
         if len(data) < _HEADER.size or data[: len(_MAGIC)] != _MAGIC:
             raise ValueError("rotor state: these bytes are not a rotor state of this version")
-        _, states, displacements, loads, behind, angle, *numbers, basis = _HEADER.unpack_from(data)
-        if behind not in (0, 2):
-            raise ValueError(f"rotor state: {behind} arrays of a step before; allowed are 0 and 2")
-        sizes = (states, displacements, loads, loads, *[loads] * behind)
+        _, states, displacements, loads, behind, where, angle, *numbers, basis = _HEADER.unpack_from(data)
+        if behind not in (0, 2) or where not in (0, 1):
+            raise ValueError(f"rotor state: {behind}, {where} more arrays; allowed are 0 or 2, and 0 or 1")
+        sizes = (states, displacements, loads, loads, *[loads] * behind, *[2 * loads] * where)
         if min(sizes) < 0 or len(data) != _HEADER.size + 8 * sum(sizes):
             raise ValueError(f"rotor state: {len(data)} bytes do not hold arrays of {sizes} numbers")
         values = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).astype(np.float64)
-        motion, shape, journals, wrench, *trail = np.split(values, np.cumsum(sizes)[:-1])
+        motion, shape, journals, wrench, *more = np.split(values, np.cumsum(sizes)[:-1])
         speed, turning = (None if math.isnan(speed) else speed for speed in numbers[:2])
         static = Equilibrium(shape, journals, wrench)
-        work, last = Work(*numbers[5:]), Trail(trail[0], trail[1], numbers[4]) if trail else None
+        work, last = Work(*numbers[5:]), Trail(more[0], more[1], numbers[4]) if behind else None
+        moved = more[-1].reshape(-1, 8) if where else None
         owed, time = numbers[2:4]
-        return cls(motion, angle, static, speed, basis, work, turning, owed, time, last)
+        return cls(motion, angle, static, speed, basis, work, turning, owed, time, last, moved)

@@ -108,15 +108,19 @@ class Unbalance:
 
     def appeared(self, time: float) -> Array:
         """1 for the nominal unbalance and each loss that has come by an instant, else 0, (1 + l,)."""
-        return np.array(self._factors(time))
+        return np.array(
+            [1.0, *(float(self._has_come(k, loss, time)) for k, loss in enumerate(self.losses, 1))]
+        )
 
-    def _factors(self, time: float) -> list[float]:
-        losses = enumerate(self.losses, 1)
-        return [1.0, *(1.0 if loss.time <= time or k in self.come else 0.0 for k, loss in losses)]
+    def _has_come(self, number: int, loss: Loss, time: float) -> bool:
+        return loss.time <= time or number in self.come
 
     def turned(self, time: float, pull: complex) -> Array:
         """Factors of the columns of `forces`: the pull of all that has appeared by now, (2 + 2 l,)."""
-        return np.array([factor * part for factor in self._factors(time) for part in (pull.real, pull.imag)])
+        found = [pull.real, pull.imag]
+        for number, loss in enumerate(self.losses, 1):
+            found += (pull.real, pull.imag) if self._has_come(number, loss, time) else (0.0, 0.0)
+        return np.array(found)
 
     def lose(self, code: int) -> None:
         """Say which losses without an instant have come: the sum of 2^k of them, k from 0."""

@@ -10,7 +10,7 @@ Sylvester equation uncouples from the rest (Golub and Van Loan 2013, Matrix Comp
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.linalg as sl
@@ -47,6 +47,12 @@ class WhirlMaps:
         Of each decoupled one, in pairs.
     compliance : Compliance
         Journals at the end from the wrenches.
+    journals : ndarray, (2, 2 k, 4 n_b)
+        Journals from a motion.
+    of_step : tuple of ndarray
+        What `whirl_loops.step` takes of it, memory included.
+    no_kick : ndarray, (4 k,)
+        Zeros.
     """
 
     block: Array
@@ -54,20 +60,31 @@ class WhirlMaps:
     end: Array
     growth: Array
     compliance: Compliance
+    journals: Array
+    of_step: tuple[Array, ...] = field(init=False)
+    no_kick: Array = field(init=False)
+    _total: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        total, seen = np.zeros((2, self.end.shape[2])), np.zeros((2, self.journals.shape[2]))
+        maps, moves = (self.block, self.growth, self.start, self.end, self.journals), self.compliance
+        of_step = *maps, moves.start, moves.end, moves.own, moves.mixed, total, seen
+        for name, value in (("of_step", of_step), ("no_kick", np.zeros(total.size)), ("_total", total)):
+            object.__setattr__(self, name, value)
 
     def coast(self, motion: Array, wrench: Array, rotation: Array) -> Array:
         """Motion at the end if the wrenches end with the step."""
         after = np.empty_like(motion)
-        coast(self.block, self.growth, self.start, wrench, rotation, motion, after)
+        coast(self.block, self.growth, self.start, wrench, rotation, motion, self._total, after)
         return after
 
     def add_start(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the start do."""
-        add_product(self.start, wrench, motion)
+        add_product(self.start, wrench, self._total, motion)
 
     def add_end(self, wrench: Array, motion: Array) -> None:
         """Add what the wrenches at the end do."""
-        add_product(self.end, wrench, motion)
+        add_product(self.end, wrench, self._total, motion)
 
 
 class NotDecoupledError(ValueError):
@@ -132,14 +149,15 @@ class WhirlCoordinates:
 
     def displacements(self, motion: Array) -> Array:
         """Modal displacements p."""
-        found = np.zeros(2 * len(self._plane.omega))
-        add_product(self._displacement_parts, motion, found)
+        count = len(self._plane.omega)
+        found = np.zeros(2 * count)
+        add_product(self._displacement_parts, motion, np.empty((2, count)), found)
         return np.concatenate([found[0::2], found[1::2]])
 
     def journals(self, motion: Array) -> Array:
         """Displacements and velocities (q, v) of the journals, (8 n_b,)."""
-        found = np.zeros(2 * len(self._journals))
-        add_product(self._journal_parts, motion, found)
+        found, count = np.zeros(2 * len(self._journals)), len(self._journals)
+        add_product(self._journal_parts, motion, np.empty((2, count)), found)
         return found
 
     def maps(self, speed: float, step: float, harmonic: Array) -> WhirlMaps:
@@ -161,7 +179,7 @@ class WhirlCoordinates:
         of_start, of_end = (_as_real(self._journals @ part[:, : end.shape[1]]) for part in (start, end))
         compliance = Compliance(of_start, of_end, self._following)
         growth = np.exp(self._rates * step).view(np.float64)
-        return WhirlMaps(parts(block), parts(start), parts(end), growth, compliance)
+        return WhirlMaps(parts(block), parts(start), parts(end), growth, compliance, self._journal_parts)
 
     def detuning(self, speed: float, step: float) -> Detuning:
         """What a speed off `speed`, and its change, do to a step."""

@@ -1,4 +1,7 @@
-"""Products of complex matrices with numbers in pairs, compiled: numpy takes most of its time to begin one.
+"""Products of complex matrices with numbers in pairs, and the step of a whirl of them, compiled.
+
+numpy takes most of its time to begin a product; among films, whose work fills the processor's nearest memory,
+each call of Python costs twice what it does alone.
 
 A matrix (s, j) is kept as real and imaginary part of its transpose, (2, j, s), so that sums run along memory.
 Numbers are real and imaginary part next to each other.
@@ -6,10 +9,13 @@ Numbers are real and imaginary part next to each other.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fmus.kernels.loops import fused, inlined
+from rotor_fmu.vibration.law_loops import begin, end_wrenches, mix
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -31,37 +37,30 @@ def _sum(matrix: Array, pairs: Array, total: Array) -> None:
             total[1, r] += real[r] * b + imaginary[r] * a
 
 
-@fused
-def add_product(matrix: Array, pairs: Array, target: Array) -> None:
-    """Add to pairs (2 s,) what the first columns of a matrix make of pairs (2 i,)."""
-    total = np.zeros((2, matrix.shape[2]))
+@inlined
+def _add_product(matrix: Array, pairs: Array, total: Array, target: Array) -> None:
+    for r in range(total.shape[1]):
+        total[0, r] = total[1, r] = 0.0
     _sum(matrix, pairs, total)
     for r in range(total.shape[1]):
         target[2 * r] += total[0, r]
         target[2 * r + 1] += total[1, r]
 
 
-@fused
-def coast(
-    block: Array, growth: Array, matrix: Array, wrench: Array, rotation: Array, before: Array, after: Array
+@inlined
+def _coast(
+    block: Array,
+    growth: Array,
+    matrix: Array,
+    wrench: Array,
+    rotation: Array,
+    before: Array,
+    total: Array,
+    after: Array,
 ) -> None:
-    """Overwrite a motion after a step, pairs (2 s,).
-
-    Parameters
-    ----------
-    block : ndarray, (2, b, b)
-        Of the first motions, which stay together.
-    growth : ndarray, (2 s - 2 b,)
-        Factors of the others.
-    matrix : ndarray, (2, i + j, s)
-        What is added, of wrench and rotation.
-    wrench, before : ndarray, (2 i,), (2 s,)
-        Pairs.
-    rotation : ndarray, (j,)
-        Real numbers.
-    """
     slow = block.shape[1]
-    total = np.zeros((2, matrix.shape[2]))
+    for r in range(total.shape[1]):
+        total[0, r] = total[1, r] = 0.0
     _sum(matrix, wrench, total)
     for j in range(len(rotation)):
         column, factor = len(wrench) // 2 + j, rotation[j]
@@ -81,8 +80,146 @@ def coast(
         after[2 * r + 1] += g * before[2 * r + 1] + h * before[2 * r]
 
 
+@fused
+def add_product(matrix: Array, pairs: Array, total: Array, target: Array) -> None:
+    """Add to pairs (2 s,) what the first columns of a matrix make of pairs (2 i,).
+
+    Total, (2, s), is memory.
+    """
+    _add_product(matrix, pairs, total, target)
+
+
+@fused
+def coast(
+    block: Array,
+    growth: Array,
+    matrix: Array,
+    wrench: Array,
+    rotation: Array,
+    before: Array,
+    total: Array,
+    after: Array,
+) -> None:
+    """Overwrite a motion after a step, pairs (2 s,).
+
+    Parameters
+    ----------
+    block : ndarray, (2, b, b)
+        Of the first motions, which stay together.
+    growth : ndarray, (2 s - 2 b,)
+        Factors of the others.
+    matrix : ndarray, (2, i + j, s)
+        What is added, of wrench and rotation.
+    wrench, before : ndarray, (2 i,), (2 s,)
+        Pairs.
+    rotation : ndarray, (j,)
+        Real numbers.
+    total : ndarray, (2, s)
+        Memory.
+    """
+    _coast(block, growth, matrix, wrench, rotation, before, total, after)
+
+
+UNSOLVED, LINEAR, MIXED = range(3)
+"""What `step` returns: no finite result, or whether all wrenches ran linearly."""
+
+
+@fused
+def step(
+    block: Array,
+    growth: Array,
+    of_start: Array,
+    of_end: Array,
+    shown: Array,
+    move_start: Array,
+    move_end: Array,
+    own: Array,
+    mixed: Array,
+    total: Array,
+    seen: Array,
+    law: Array,
+    matrix: Array,
+    sizes: Array,
+    first: Array,
+    last: Array,
+    nearer: Array,
+    moves: Array,
+    offset: Array,
+    rest: Array,
+    rotation: Array,
+    kick: Array,
+    before: Array,
+    where: Array,
+    after: Array,
+    journals: Array,
+) -> int:
+    """Take a step as `rotor_fmu.vibration.affine_step.AffineStep.advance` does, in one go.
+
+    Parameters
+    ----------
+    block, growth, of_start, of_end, shown
+        As in `whirl_coordinates.WhirlMaps`: block, growth, start, end, journals.
+    move_start, move_end, own, mixed
+        As in `coordinates.Compliance`: start, end, own, mixed.
+    total, seen : ndarray, (2, s), (2, 4 n)
+        Memory.
+    law, offset : ndarray, (n, 4, 8), (4 n,)
+        Of the bearings.
+    matrix, sizes, first, last : ndarray, (4 n, 4 n), (n + 1, n), (4 n,), (4 n,)
+        Memory.
+    nearer : ndarray, (4 n,)
+        Overwritten, see `law_loops.begin`.
+    moves : ndarray, (n, 8, 4 n)
+        Memory.
+    rest : ndarray, (n, 8)
+        The journals in the static equilibrium.
+    rotation : ndarray
+        As in `coast`.
+    kick : ndarray, (2 s,)
+        Added to the motion at the end.
+    before, where : ndarray, (2 s,), (n, 8)
+        Motion and journals at the start.
+    after, journals
+        Those at the end; overwritten.
+    """
+    mixes = begin(law, offset, where, own, mixed, matrix, sizes, first, nearer)
+    if mixes:
+        for i in range(len(first)):
+            last[i] = nearer[i] * first[i]
+            first[i] -= last[i]
+    _coast(block, growth, of_start, first, rotation, before, total, after)
+    if mixes:
+        _add_product(of_end, last, total, after)
+    for r in range(len(after)):
+        after[r] += kick[r]
+    for b in range(len(law)):
+        for j in range(8):
+            journals[b, j] = rest[b, j]
+    _add_product(shown, after, seen, journals.reshape(journals.size))
+    if mixes:
+        mix(move_start, move_end, nearer, moves)
+    solved = end_wrenches(law, offset, moves if mixes else move_end, matrix, journals, last)
+    if mixes:
+        for i in range(len(first)):
+            first[i] = nearer[i] * last[i]
+            last[i] -= first[i]
+        _add_product(of_start, first, total, after)
+    _add_product(of_end, last, total, after)
+    square = 0.0
+    for r in range(len(after)):
+        square += after[r] * after[r]
+    if not (solved and math.isfinite(square)):
+        return UNSOLVED
+    return MIXED if mixes else LINEAR
+
+
 def compile_now() -> None:
     """Compile, or fetch what is kept, so that no step has to wait for it."""
-    matrix, pair = np.zeros((2, 1, 1)), np.zeros(2)
-    add_product(matrix, pair, np.zeros(2))
-    coast(matrix, np.zeros(0), np.zeros((2, 2, 1)), pair, np.zeros(1), pair, np.zeros(2))
+    matrix, pair, total = np.zeros((2, 1, 1)), np.zeros(2), np.zeros((2, 1))
+    add_product(matrix, pair, total, np.zeros(2))
+    coast(matrix, np.zeros(0), np.zeros((2, 2, 1)), pair, np.zeros(1), pair, total, np.zeros(2))
+    maps = matrix, np.zeros(0), np.zeros((2, 3, 1)), np.zeros((2, 2, 1)), np.zeros((2, 1, 4))
+    move, four, square, where = np.zeros((1, 8, 4)), np.zeros(4), np.zeros((4, 4)), np.zeros((1, 8))
+    memory = total, np.zeros((2, 4)), np.zeros((1, 4, 8)), square, np.zeros((2, 1)), four, four, four, move
+    about = four, where, np.zeros(1), pair, pair, where
+    step(*maps, move, move, np.zeros((1, 4, 4)), square, *memory, *about, np.zeros(2), where)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.kernels.loops import compiled
+from fmus.kernels.loops import compiled, copy
 from orchestrator.master.coupling.rates import STANDS, due_at, intervals_after, measure, relative
 from orchestrator.master.interface import defects
 
@@ -47,7 +47,8 @@ def find_due(
     """
     end = time + step
     due_at(end, tolerance, all_of_them, rates, tangents, where, motion, levers, again, moved, due)
-    before[:] = tangents
+    for b in range(len(due)):
+        copy(tangents[b], before[b])
     count = 0
     for b in range(len(due)):
         if due[b]:

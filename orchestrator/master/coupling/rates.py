@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.kernels.loops import compiled, inlined
+from fmus.kernels.loops import compiled, copy, inlined
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -71,12 +71,17 @@ _NOTHING = 1e-12
 
 
 @inlined
+def _larger(size: float, largest: float) -> float:
+    """The larger one; not a number where the first is none."""
+    return size if size > largest or math.isnan(size) else largest
+
+
+@inlined
 def _magnitude(fx: float, fy: float, mx: float, my: float, lever: float) -> float:
     """Largest component of a wrench, moments over the lever; not a number where one is none."""
     largest = 0.0
     for size in (abs(fx), abs(fy), abs(mx) / lever, abs(my) / lever):
-        if size > largest or math.isnan(size):
-            largest = size
+        largest = _larger(size, largest)
     return largest
 
 
@@ -186,18 +191,18 @@ def due_at(
         Overwritten.
     """
     for b in range(len(rates)):
-        change = np.zeros(4)
-        for part in range(2):
-            for i in range(4):
+        largest = 0.0
+        for i in range(4):
+            change = 0.0
+            for part in range(2):
                 total = 0.0
                 for j in range(4):
                     at = 4 * part + j
                     total += tangents[b, 16 * part + 4 * i + j] * (motion[b, at] - where[b, at])
-                change[i] += abs(total)
-        moved[b] = _magnitude(change[0], change[1], change[2], change[3], levers[b]) / rates[b, SIZE]
-        bend = rates[b, BEND]
-        if bend > LINEAR:
-            bend = max(bend, STIFFENS)
+                change += abs(total)
+            largest = _larger(change if i < 2 else change / levers[b], largest)
+        moved[b] = largest / rates[b, SIZE]
+        bend = rates[b, BEND] if rates[b, BEND] <= LINEAR else max(rates[b, BEND], STIFFENS)
         due[b] = (
             all_of_them
             or again[b]
@@ -238,11 +243,9 @@ def relative(
     for b in range(len(size)):
         found = _magnitude(defect[b, 0], defect[b, 1], defect[b, 2], defect[b, 3], levers[b]) / size[b]
         sizes[b], rough[b] = found, found > tolerance
-        if found > largest or math.isnan(found):
-            largest = found
+        largest = _larger(found, largest)
         answers = rates[b, STANDS] == start or not (found <= tolerance or again[b]) or math.isnan(found)
-        if answers and (found > answered or math.isnan(found)):
-            answered = found
+        answered = _larger(found, answered) if answers else answered
     return largest, answered
 
 
@@ -272,20 +275,18 @@ def intervals_after(
         As above; `rates` is what was known.
     """
     for b in range(len(rates)):
-        after[b] = rates[b]
+        copy(rates[b], after[b])
         after[b, SIZE] = size[b]
         if not due[b]:
             continue
-        span = end - rates[b, STANDS]
-        interval = rates[b, INTERVAL]
+        span, interval = end - rates[b, STANDS], rates[b, INTERVAL]
         if span >= _WHOLE * interval and sizes[b] <= CALM * tolerance:
             interval = 2.0 * span
         if sizes[b] > tolerance:
             interval = min(interval, 0.5 * span)
-        bend = sizes[b] / max(moved[b], _NOTHING) ** 2
         after[b, STANDS], after[b, SPAN], after[b, INTERVAL] = end, span, interval
-        after[b, BEND] = max(bend, FADES * rates[b, BEND])
-        after[b, BEFORE:] = tangents[b]
+        after[b, BEND] = max(sizes[b] / max(moved[b], _NOTHING) ** 2, FADES * rates[b, BEND])
+        copy(tangents[b], after[b, BEFORE:])
 
 
 @compiled
@@ -296,4 +297,4 @@ def measure(forces: Array, loads: Array, faded: float, rates: Array, size: Array
     """
     for b in range(len(size)):
         force = math.hypot(forces[b, 0], forces[b, 1])
-        size[b] = max(force, max(faded * rates[b, SIZE], LIGHT * loads[b]))
+        size[b] = max(force, faded * rates[b, SIZE], LIGHT * loads[b])

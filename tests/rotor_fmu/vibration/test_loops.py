@@ -1,10 +1,13 @@
 """Compiled loops of the rotor, and as they stand, against the same by numpy."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
+from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 
@@ -36,10 +39,12 @@ def complex_numbers(rng, *shape):
 def test_wrenches_at_the_end_are_those_of_the_law_under_themselves(rng, loop, share):
     law, offset, journals = rng.normal(size=(N, 4, 8)), rng.normal(size=LOADS), rng.normal(size=(N, 8))
     of_start, of_end = 0.1 * rng.normal(size=(2, N, 8, LOADS))
-    nearer, wrench = share * rng.random(LOADS), np.empty(LOADS)
-    memory = np.full((LOADS, LOADS), np.nan)
-    assert loop(law_loops, "end_wrenches")(law, offset, journals, of_start, of_end, nearer, memory, wrench)
-    moved = journals + (of_end + nearer * (of_start - of_end)) @ wrench
+    nearer, wrench, moves = share * rng.random(LOADS), np.empty(LOADS), np.empty_like(of_end)
+    loop(law_loops, "mix")(of_start, of_end, nearer, moves)
+    np.testing.assert_allclose(moves, of_end + nearer * (of_start - of_end), rtol=1e-12)
+    memory, moved = np.full((LOADS, LOADS), np.nan), journals.copy()
+    assert loop(law_loops, "end_wrenches")(law, offset, moves, memory, moved, wrench)
+    np.testing.assert_allclose(moved, journals + moves @ wrench, rtol=1e-12, atol=1e-14)
     again = np.empty(LOADS)
     loop(law_loops, "react")(law, offset, moved, again)
     np.testing.assert_allclose(again, offset - np.einsum("bij,bj->bi", law, moved).ravel(), rtol=1e-12)
@@ -51,21 +56,25 @@ def test_a_law_without_a_solution(rng, loop):
     law, of_end = np.zeros((1, 4, 8)), np.zeros((1, 8, 4))
     law[0, :, :4] = np.array([[-1.0, 1.0, 0, 0], [1.0, 3.0, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1.0]])
     of_end[0, :4] = np.eye(4)
-    given = law, np.ones(4), np.zeros((1, 8)), of_end, of_end, np.zeros(4), np.empty((4, 4)), np.empty(4)
+    given = law, np.ones(4), of_end, np.empty((4, 4)), np.zeros((1, 8)), np.empty(4)
     assert not loop(law_loops, "end_wrenches")(*given)
 
 
 def test_stiffness_numbers(rng, loop):
     """Two springs on one mass: k S of each alone, and twice that since both stiffen the other."""
-    numbers = np.zeros(2)
+    memory, sizes = np.full((8, 8), np.nan), np.zeros((3, 2))
     law, own, mixed = np.zeros((2, 4, 8)), np.zeros((2, 4, 4)), np.zeros((8, 8))
     law[:, 0, 0] = 6.0, 24.0
     own[:, 0, 0] = mixed[0, 0] = mixed[4, 4] = mixed[0, 4] = mixed[4, 0] = 0.5
     find = loop(law_loops, "stiffness_numbers")
-    assert find(law, own, mixed, numbers)
-    np.testing.assert_allclose(numbers, [6.0, 24.0])
-    assert not find(1e-2 * law, own, mixed, numbers)
-    shares, half = np.full(8, np.nan), loop(law_loops, "half_shares")
+    assert find(law, own, mixed, memory, sizes)
+    np.testing.assert_allclose(sizes[-1], [6.0, 24.0])
+    assert not find(1e-2 * law, own, mixed, memory, sizes)
+    shares = np.full(8, np.nan)
+
+    def half(law, own, mixed, shares):
+        return loop(law_loops, "half_shares")(law, own, mixed, memory, sizes, shares)
+
     assert half(law, own, mixed, shares)
     np.testing.assert_allclose(shares, np.repeat(0.5 - 0.5 / np.array([6.0, 24.0]), 4))
     assert half(0.1 * law, own, mixed, shares)  # 0.6 and 2.4
@@ -88,12 +97,13 @@ def test_a_whirl_coasts_and_is_pushed(rng, loop, slow):
         wrench.view(float),
     )
     assert all(part.flags.c_contiguous for part in maps)
-    loop(whirl_loops, "coast")(*maps, rotation, before.view(float), after)
+    total = np.full((2, size), np.nan)
+    loop(whirl_loops, "coast")(*maps, rotation, before.view(float), total, after)
     expected = matrix @ np.concatenate([wrench, rotation])
     expected[:slow] += block @ before[:slow]
     expected[slow:] += growth * before[slow:]
     np.testing.assert_allclose(after.view(complex), expected, rtol=1e-12)
-    loop(whirl_loops, "add_product")(maps[2], wrench.view(float), after)
+    loop(whirl_loops, "add_product")(maps[2], wrench.view(float), total, after)
     np.testing.assert_allclose(after.view(complex), expected + matrix[:, :pairs] @ wrench, rtol=1e-12)
 
 
@@ -121,7 +131,7 @@ def test_no_step_waits_for_the_compiler():
         getattr(module, name)
         for module, names in (
             (law_loops, ("react", "begin", "end_wrenches")),
-            (whirl_loops, ("coast", "add_product")),
+            (whirl_loops, ("coast", "add_product", "step")),
             (field_loops, ("fields_at",)),
         )
         for name in names
@@ -137,3 +147,35 @@ def test_no_step_waits_for_the_compiler():
     rotor.set_state(RotorState.from_bytes(rotor.get_state().to_bytes()))
     rotor.step(3e-4, 1e-4, *strided, rotor.speed)
     assert [len(loop.signatures) for loop in loops] == before
+
+
+@pytest.mark.parametrize("stiffness", [1e7, 1e13])
+@pytest.mark.parametrize("kicked", [False, True])
+def test_a_whirl_steps_in_one_go_as_in_parts(rng, stiffness, kicked):
+    rotor = Rotor.of_train(load_train("small"))
+    laws = (
+        rng.normal(size=(2, 4)),
+        stiffness * np.tile(np.eye(4), (2, 1, 1)),
+        np.tile(1e3 * np.eye(4), (2, 1, 1)),
+    )
+    rotor.start_from_law(*laws, orbit=True)
+    state, H, speed = rotor.get_state(), 1e-4, rotor.speed
+    coordinates, maps = rotor._maps.coordinates(speed), rotor._maps.step(speed, H)
+    parts = SimpleNamespace(**{
+        name: getattr(maps, name) for name in ("coast", "add_start", "add_end", "compliance")
+    })  # fmt: skip
+    kick = 1e-6 * rng.normal(size=state.motion.shape) if kicked else None
+    stepper, found = AffineStep(2), []
+    stepper.set_law(*laws[1:])
+    for way in (maps, parts):
+        about = state.motion, state.journals, laws[0], np.ones(4), kick, state.static
+        found.append(stepper.advance(coordinates, way, *about))
+    (end, journals, nearer, _), (end_in_parts, journals_in_parts, nearer_in_parts, _) = found
+    np.testing.assert_allclose(end, end_in_parts, rtol=0, atol=1e-11 * np.abs(end).max())
+    np.testing.assert_allclose(journals, journals_in_parts, rtol=0, atol=1e-11 * np.abs(journals).max())
+    np.testing.assert_allclose(
+        journals, journal_motion(coordinates, end, state.static), rtol=0, atol=1e-11 * np.abs(journals).max()
+    )
+    assert (nearer is None) == (stiffness < 1e10)
+    if nearer is not None:
+        np.testing.assert_allclose(nearer, nearer_in_parts, rtol=1e-12)
