@@ -123,9 +123,8 @@ class RotorSlave(UnitSlave):
 
     def _braking(self) -> tuple[bool, Braking]:
         """Whether torques decide the speed, and what acts on the rotation now, where that is asked for."""
-        on = {
-            name for name, value in zip(port.SWITCHES, self._switches.tolist(), strict=True) if value >= 0.5
-        }
+        switches = zip(port.SWITCHES, self._switches.tolist(), strict=True)
+        on = {name for name, value in switches if value >= 0.5}
         free = self._drive.is_free(on)
         if not (free or self._rotor.keeps_account):
             return free, NOTHING
@@ -184,8 +183,7 @@ class RotorSlave(UnitSlave):
             self.values[self.layout.block(port.WORK[0], port.WORK[-1])] = work
             return
         block = self.layout.block("node[1].x", f"node[{self._train.nodes}].stress")
-        fields = self._rotor.fields()
-        self.values[block] = np.concatenate([fields.x, fields.y, fields.amplitude, fields.stress])
+        self.values[block] = self._rotor.fields().all.ravel()
 
     def model_state(self) -> RotorState:
         """Return the state of the shaft."""

@@ -46,6 +46,7 @@ class Layout:
     computed: frozenset[int] = field(init=False, repr=False)
     lazy: dict[str, frozenset[int]] = field(init=False, repr=False)
     lazy_span: dict[str, tuple[int, int]] = field(init=False, repr=False)
+    first_lazy: int = field(init=False, repr=False)
     inputs: slice = field(init=False)
     outputs: slice = field(init=False)
     parameters: slice = field(init=False)
@@ -76,6 +77,9 @@ class Layout:
         groups = sorted({v.lazy for v in self.variables if v.lazy})
         set_field(self, "lazy", {g: frozenset(i for i, v in numbered if v.lazy == g) for g in groups})
         set_field(self, "lazy_span", {group: (min(vrs), max(vrs)) for group, vrs in self.lazy.items()})
+        set_field(
+            self, "first_lazy", min((first for first, _ in self.lazy_span.values()), default=len(index))
+        )
         set_field(self, "inputs", inputs)
         if FAILURE.name not in index:
             raise ValueError(f"port: the output {FAILURE.name} is missing")

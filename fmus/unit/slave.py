@@ -29,7 +29,7 @@ from pythonfmu.enums import Fmi2Status
 
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.variable import Kind
-from fmus.unit.failure import NONE, Problem, UnitError, attempt
+from fmus.unit.failure import UnitError, attempt
 from fmus.unit.hooks import Hooks
 from fmus.unit.layout import Layout
 from fmus.unit.loader import Refusal, for_log
@@ -64,7 +64,8 @@ class UnitSlave(Hooks, Fmi2Slave):
         self._mode = INSTANTIATED
         self._prepared_for: tuple[bytes, ...] | None = None  # the parameters of the model at hand
         self._unsolved = True  # something was set since `start` last ran
-        self._stale = set(layout.lazy)  # groups that do not belong to the present state
+        self._stale = self._all_lazy = (1 << len(layout.lazy)) - 1
+        """A bit for each group of lazy variables that does not belong to the present state."""
         self._tuned = False  # a parameter was changed since the last step
         self._failure = ""  # of the start
         self._misuse = ""  # a call that FMI forbids
@@ -96,27 +97,21 @@ class UnitSlave(Hooks, Fmi2Slave):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the unit; False (fmi2Discard) with the reason in the log if it cannot."""
-        code, reason = self._unready()
-        if not reason:
-            code, reason = attempt(Failure.STEP, self._checked_step, current_time, step_size)
-            self._stale = set(self.layout.lazy)
+        code, reason = attempt(Failure.STEP, self._checked_step, current_time, step_size)
         self._values.put(self._code, code)
         if reason:
             self._report(f"step from t = {current_time} s by {step_size} s refused: {reason}")
         return not reason
 
-    def _unready(self) -> Problem:
-        """Say why no step can be taken at all."""
+    def _checked_step(self, time: float, step: float) -> None:
         if self._misuse:
-            return Problem(Failure.CALL, self._misuse)
+            raise UnitError(self._misuse, Failure.CALL)
         if self._failure:
-            return Problem(Failure(int(self.values[self._code])), self._failure)
+            raise UnitError(self._failure, Failure(int(self.values[self._code])))
         if self._mode != STEP:
             text = "a step is due between the end of initialization and termination only"
-            return Problem(Failure.CALL, text)
-        return NONE
-
-    def _checked_step(self, time: float, step: float) -> None:
+            raise UnitError(text, Failure.CALL)
+        self._stale = self._all_lazy
         if not (0.0 < step < math.inf and math.isfinite(time)):
             raise UnitError("the step must be positive and finite", Failure.CALL)
         self._values.check_inputs(len(self.inputs))
@@ -138,7 +133,7 @@ class UnitSlave(Hooks, Fmi2Slave):
             return
         code, self._failure = attempt(Failure.PARAMETER, self._initialize)
         self._unsolved = False
-        self._stale = set(self.layout.lazy)
+        self._stale = self._all_lazy
         if self._failure:
             self._report(f"no start: {self._failure}", Fmi2Status.warning)
             self.values[self.layout.outputs] = math.nan
@@ -165,7 +160,8 @@ class UnitSlave(Hooks, Fmi2Slave):
     def get_real(self, vrs: list[int]) -> list[float]:
         """Return values, computed first where that is due."""
         block = self._values.block(vrs)
-        self._update(vrs, block)
+        if self._stale or self._unsolved:
+            self._update(vrs, block)
         try:
             return self._values.read(vrs, block)
         except IndexError:
@@ -189,7 +185,10 @@ class UnitSlave(Hooks, Fmi2Slave):
 
     def set_real(self, vrs: list[int], values: Sequence[float]) -> None:
         """Set inputs, and parameters before the end of initialization, behind it those that are tunable."""
-        self._write("Real", vrs, values)
+        block = self._values.block(vrs)
+        if self._mode != STEP or block is None or block.stop > self.layout.inputs.stop:
+            self._check_settable(vrs, "Real")
+        self._values.write(vrs, values, block)
 
     def set_integer(self, vrs: list[int], values: Sequence[int]) -> None:
         """Set Integer parameters."""
@@ -205,15 +204,13 @@ class UnitSlave(Hooks, Fmi2Slave):
         self.strings.update(zip(vrs, values, strict=True))
 
     def _write(self, kind: Kind, vrs: list[int], values: Sequence[float]) -> None:
-        block = self._values.block(vrs)
-        self._check_settable(vrs, kind, block)
-        self._values.write(vrs, values, block)
+        self._check_settable(vrs, kind)
+        self._values.write(vrs, values, self._values.block(vrs))
 
-    def _check_settable(self, vrs: list[int], kind: Kind, block: slice | None = None) -> None:
+    def _check_settable(self, vrs: list[int], kind: Kind) -> None:
         """Refuse what FMI does not allow to be set now."""
         if self._mode == STEP:
-            end = max(vrs, default=-1) + 1 if block is None else block.stop
-            allowed = kind == "Real" and end <= self.layout.inputs.stop
+            allowed = kind == "Real" and max(vrs, default=-1) < self.layout.inputs.stop
             if not allowed and kind == "Real" and self.layout.tunable.issuperset(vrs):
                 allowed = self._tuned = True
         else:
@@ -227,16 +224,18 @@ class UnitSlave(Hooks, Fmi2Slave):
     def _update(self, vrs: list[int], block: slice | None) -> None:
         if self._mode < STEP and self._unsolved and not self.layout.computed.isdisjoint(vrs):
             self._solve()
-        for group in tuple(self._stale):
+        if block is not None and block.stop <= self.layout.first_lazy:
+            return  # at a glance, for it is asked at every step
+        for i, (group, members) in enumerate(self.layout.lazy.items()):
             first, last = self.layout.lazy_span[group]
             if block is not None and (block.stop <= first or last < block.start):
-                continue  # at a glance, for it is asked at every step
-            if not self.layout.lazy[group].isdisjoint(vrs):
+                continue
+            if self._stale >> i & 1 and not members.isdisjoint(vrs):
                 reason = self._failure or attempt(Failure.STEP, self.observe, group).reason
                 if reason:
-                    self.values[list(self.layout.lazy[group])] = math.nan
+                    self.values[list(members)] = math.nan
                     self._report(f"{group} not computed: {reason}", Fmi2Status.warning)
-                self._stale.discard(group)
+                self._stale &= ~(1 << i)
 
     # -- state ---------------------------------------------------------------
 
@@ -245,11 +244,11 @@ class UnitSlave(Hooks, Fmi2Slave):
         # parameters cannot change in the step mode
         known = self._prepared_for
         prepared = known is not None and (self._mode == STEP or known == self._values.parameters())
-        stale = sum(1 << i for i, group in enumerate(self.layout.lazy) if group in self._stale)
         texts = [self._failure, self._misuse, *self.strings.values()]
         model = self.model_state() if prepared else None
         numbers = self._values.pack()
-        return UnitState(self._mode, prepared, self._unsolved, stale, self.start_time, numbers, texts, model)
+        where = self._mode, prepared, self._unsolved, self._stale, self.start_time
+        return UnitState(*where, numbers, texts, model)
 
     def _set_fmu_state(self, state: UnitState | bytes) -> None:
         reason = attempt(Failure.CALL, self._restore, state).reason
@@ -270,7 +269,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         if state.model is not None:
             self.restore_model(state.model)
         self._mode, self._unsolved, self.start_time = state.mode, state.unsolved, state.start_time
-        self._stale = {group for i, group in enumerate(self.layout.lazy) if state.stale >> i & 1}
+        self._stale = state.stale
 
     @classmethod
     def _fmu_state_to_bytes(cls, state: UnitState | bytes) -> bytes:  # pythonfmu asks the class

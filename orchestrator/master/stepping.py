@@ -250,8 +250,9 @@ class Stepper:
     def _advance(self, time: float, step: float, common: bool) -> Advance:
         """Carry the system over a step, and estimate its error."""
         system = self._system
-        advance = self.scheme.advance(system, time, step, common)
-        return advance._replace(of_length=error_of_step(self._before, system.motion, system.squares, step))
+        passes, defect, _, *more = self.scheme.advance(system, time, step, common)
+        of_length = error_of_step(self._before, system.motion, system.squares, step)
+        return Advance(passes, defect, of_length, *more)
 
     def _sizes(self, advance: Advance) -> tuple[float, float]:
         """Relative defect of a step, and weighted relative error from its length."""

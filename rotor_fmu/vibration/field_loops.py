@@ -13,11 +13,21 @@ Array = NDArray[np.float64]
 
 
 @inlined
-def _product(row: Array, vector: Array) -> float:
-    total = 0.0
+def _products(matrix: Array, k: int, vector: Array) -> tuple[float, float, float]:
+    """Products of rows k of each third of a matrix with a vector, which is then read once."""
+    nodes = len(matrix) // 3
+    deflection, before, behind = matrix[k], matrix[nodes + k], matrix[2 * nodes + k]
+    moved = left = right = 0.0
     for c in range(len(vector)):
-        total += row[c] * vector[c]
-    return total
+        moved += deflection[c] * vector[c]
+        left += before[c] * vector[c]
+        right += behind[c] * vector[c]
+    return moved, left, right
+
+
+@inlined
+def _square(x: float, y: float, flexibility: float) -> float:
+    return (x * x + y * y) * flexibility * flexibility
 
 
 @inlined
@@ -56,17 +66,14 @@ def fields_at(
     """
     nodes = fields.shape[1]
     for k in range(nodes):
-        x, y = _product(of_x[k], in_x), _product(of_y[k], in_y)
+        x, left_x, right_x = _products(of_x, k, in_x)
+        y, left_y, right_y = _products(of_y, k, in_y)
         fields[0, k], fields[1, k] = static[0, k] + x, static[1, k] + y
-        fields[2, k], fields[3, k] = x * x + y * y, 0.0
-    for side in range(2):
-        for k in range(nodes):
-            at = side * nodes + k
-            x = moments[0, at] + _product(of_x[nodes + at], in_x)
-            y = moments[1, at] + _product(of_y[nodes + at], in_y)
-            square = (x * x + y * y) * flexibility[at] * flexibility[at]
-            if square > fields[3, k] or math.isnan(square):
-                fields[3, k] = square
+        fields[2, k] = x * x + y * y
+        at = nodes + k
+        left = _square(moments[0, k] + left_x, moments[1, k] + left_y, flexibility[k])
+        right = _square(moments[0, at] + right_x, moments[1, at] + right_y, flexibility[at])
+        fields[3, k] = right if right > left or math.isnan(right) else left
     moved = bent = 0
     for k in range(nodes):
         moved = k if _beyond(fields[2, k], fields[2, moved]) else moved

@@ -23,6 +23,8 @@ class NodeFields:
 
     Attributes
     ----------
+    all : ndarray, (4, N)
+        The following, one below the other.
     x, y : ndarray, (N,)
         Displacements, static sag included [m].
     amplitude : ndarray, (N,)
@@ -31,10 +33,27 @@ class NodeFields:
         Largest normal stress at the surface from static and dynamic bending in both planes [Pa].
     """
 
-    x: Array
-    y: Array
-    amplitude: Array
-    stress: Array
+    all: Array
+
+    @property
+    def x(self) -> Array:
+        """Displacements in x."""
+        return self.all[0]
+
+    @property
+    def y(self) -> Array:
+        """Displacements in y."""
+        return self.all[1]
+
+    @property
+    def amplitude(self) -> Array:
+        """Vibration amplitudes."""
+        return self.all[2]
+
+    @property
+    def stress(self) -> Array:
+        """Largest normal stresses."""
+        return self.all[3]
 
 
 class Extremes(NamedTuple):
@@ -96,7 +115,7 @@ class FieldMap:
 
     def fields(self, moved: Array, static: Equilibrium[np.float64]) -> NodeFields:
         """All fields of modal displacements, (m,), about an equilibrium; neither changes in place."""
-        return NodeFields(*self._instant(moved, static).fields)
+        return NodeFields(self._instant(moved, static).fields)
 
     def extremes(self, moved: Array, static: Equilibrium[np.float64]) -> Extremes:
         """Largest amplitude and stress, and where."""
