@@ -79,16 +79,13 @@ class BearingSlave(UnitSlave):
 
     def start(self) -> None:
         """Evaluate the film at the inputs, in balance with them."""
-        self._evaluate(self._film.rest(), 0.0)
+        self._state = self._film.rest()
+        self.advance(self.start_time, 0.0)
 
     def advance(self, time: float, step: float) -> None:
-        """Evaluate the film at the inputs, which are those at the end of the step."""
-        self._evaluate(self._state, step)
-
-    def _evaluate(self, state: Any, dt: float) -> None:
-        """Take on outputs and state together, or nothing."""
+        """Evaluate the film at the inputs, those at the end of the step; take on outputs and state, or nothing."""
         try:
-            outputs, state = self._film.evaluate(state, self.inputs, dt)
+            outputs, state = self._film.evaluate(self._state, self.inputs, step)
         except ArithmeticError as error:
             raise UnitError(f"film failed: {error}", port.Failure.FILM) from None
         self._outputs[: len(outputs)] = outputs  # the details behind them only some films tell

@@ -39,9 +39,14 @@ def attempt(default: Failure, action: Callable[..., None], *arguments: Any) -> P
     """Run `action`; return what went wrong, with the code `default` where the error names none."""
     try:
         action(*arguments)
-    except (UnitError, ValueError) as error:
+    except Exception as error:  # any: pythonfmu would make fmi2Fatal of it
+        return problem_of(error, default)
+    return NONE
+
+
+def problem_of(error: Exception, default: Failure) -> Problem:
+    """What went wrong, with the code `default` where the error names none."""
+    if isinstance(error, UnitError | ValueError):
         code = error.code if isinstance(error, UnitError) and error.code else default
         return Problem(code, str(error) or type(error).__name__)
-    except Exception as error:  # any: pythonfmu would make fmi2Fatal of it
-        return Problem(default, f"{type(error).__name__}: {error}")
-    return NONE
+    return Problem(default, f"{type(error).__name__}: {error}")

@@ -29,7 +29,7 @@ from pythonfmu.enums import Fmi2Status
 
 from fmus.port.failure import FAILURE, Failure
 from fmus.port.variable import Kind
-from fmus.unit.failure import UnitError, attempt
+from fmus.unit.failure import UnitError, attempt, problem_of
 from fmus.unit.hooks import Hooks
 from fmus.unit.layout import Layout
 from fmus.unit.loader import Refusal, for_log
@@ -97,13 +97,19 @@ class UnitSlave(Hooks, Fmi2Slave):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance the unit; False (fmi2Discard) with the reason in the log if it cannot."""
-        code, reason = attempt(Failure.STEP, self._checked_step, current_time, step_size)
-        self._values.put(self._code, code)
-        if reason:
+        try:
+            self._get_ready(current_time, step_size)
+            self.advance(current_time, step_size)
+        except Exception as error:  # any: pythonfmu would make fmi2Fatal of it
+            code, reason = problem_of(error, Failure.STEP)
+            self._values.put(self._code, code)
             self._report(f"step from t = {current_time} s by {step_size} s refused: {reason}")
-        return not reason
+            return False
+        self._values.put(self._code, Failure.NONE)
+        return True
 
-    def _checked_step(self, time: float, step: float) -> None:
+    def _get_ready(self, time: float, step: float) -> None:
+        """Refuse a step that cannot be taken, and take on what was tuned."""
         if self._misuse:
             raise UnitError(self._misuse, Failure.CALL)
         if self._failure:
@@ -114,10 +120,9 @@ class UnitSlave(Hooks, Fmi2Slave):
         self._stale = self._all_lazy
         if not (0.0 < step < math.inf and math.isfinite(time)):
             raise UnitError("the step must be positive and finite", Failure.CALL)
-        self._values.check_inputs(len(self.inputs))
+        self._values.check_inputs(self.inputs)
         if self._tuned:
             self._retune()
-        self.advance(time, step)
 
     def _retune(self) -> None:
         """Make the model of the parameters as they are now, in the state in which it stands."""
@@ -142,7 +147,7 @@ class UnitSlave(Hooks, Fmi2Slave):
         self._values.put(self._code, code)
 
     def _initialize(self) -> None:
-        self._values.check_inputs(self.starts_on())
+        self._values.check_inputs(self.inputs[: self.starts_on()])
         for i in self.layout.settable["Real"]:
             if math.isnan(self.values[i]):
                 raise UnitError(f"parameter {self.layout.variables[i].name} is not a number")

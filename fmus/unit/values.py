@@ -60,15 +60,14 @@ class Values:
         """Set one number, quicker than numpy does."""
         self._array[reference] = number
 
-    def check_inputs(self, count: int) -> None:
-        """Refuse the first `count` inputs if one is not finite.
+    def check_inputs(self, inputs: NDArray[np.float64]) -> None:
+        """Refuse inputs, from the first on, if one is not finite.
 
         Raises
         ------
         UnitError
             With the names of the bad ones.
         """
-        inputs = self.numbers[:count]
         # one pass: a single NaN or infinity spoils the sum of squares
         if not math.isfinite(inputs.dot(inputs)):
             bad = [self._layout.variables[i].name for i, x in enumerate(inputs) if not math.isfinite(x)]

@@ -250,9 +250,9 @@ class Stepper:
     def _advance(self, time: float, step: float, common: bool) -> Advance:
         """Carry the system over a step, and estimate its error."""
         system = self._system
-        passes, defect, _, *more = self.scheme.advance(system, time, step, common)
+        done = self.scheme.advance(system, time, step, common)
         of_length = error_of_step(self._before, system.motion, system.squares, step)
-        return Advance(passes, defect, of_length, *more)
+        return Advance(done.iterations, done.defect, of_length, done.evaluated, done.errors)
 
     def _sizes(self, advance: Advance) -> tuple[float, float]:
         """Relative defect of a step, and weighted relative error from its length."""

@@ -48,6 +48,11 @@ class Equilibrium(Generic[Scalar]):
         positions = self.journals.reshape(-1, 4)
         return np.hstack([positions, np.zeros_like(positions)])
 
+    @cached_property
+    def bearing_wrenches(self) -> NDArray[Scalar]:
+        """The wrenches, a row a bearing, (n_b, 4)."""
+        return self.wrench.reshape(-1, 4)
+
 
 @dataclass(frozen=True, eq=False)
 class CondensedShaft(Generic[Scalar]):

@@ -83,6 +83,8 @@ class AffineStep:
         self._matrix, self._sizes = np.zeros((loads, loads)), np.zeros((bearings + 1, bearings))
         self._start, self._end, self._nearer = np.zeros(loads), np.zeros(loads), np.zeros(loads)
         self._moves = np.zeros((bearings, 8, loads))
+        memory = self._matrix, self._sizes, self._start, self._end, self._nearer, self._moves
+        self._of_whirl: tuple[Array, ...] = self._law, *memory, self._offset.reshape(-1)
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
@@ -163,10 +165,17 @@ class AffineStep:
         NoFiniteResult
             If the law has no solution at the end of the step, or numbers are not finite.
         """
+        np.subtract(F0, static.bearing_wrenches, out=self._offset)
+        if isinstance(maps, WhirlMaps) and beyond is None:  # in one compiled loop
+            kick = maps.no_kick if kick is None else kick
+            end, where = np.empty(motion.shape), np.empty(journals.shape)
+            about = static.journals_at_rest, rotation, kick, motion, journals, end, where
+            given: tuple[Array, ...] = *maps.of_step, *self._of_whirl, *about
+            done = whirl_step(*given)
+            if done == UNSOLVED:
+                raise NoFiniteResult(_NOT_FINITE)
+            return Step(end, where, self._nearer.copy() if done == MIXED else None, None)
         offset = self._offset.reshape(-1)
-        np.subtract(F0, static.wrench.reshape(-1, 4), out=self._offset)
-        if isinstance(maps, WhirlMaps) and beyond is None:
-            return self._whirl(maps, motion, journals, rotation, kick, static)
         matrix, start, compliance = self._matrix, self._start, maps.compliance
         own = compliance.own, compliance.mixed
         mixes = begin(self._law, offset, journals, *own, matrix, self._sizes, start, self._nearer)
@@ -199,26 +208,6 @@ class AffineStep:
             raise NoFiniteResult(_NOT_FINITE)
         trail = None if beyond is None else beyond.trail(share * (wrench - start))
         return Step(end, journals, nearer.copy() if mixes else None, trail)
-
-    def _whirl(
-        self,
-        maps: WhirlMaps,
-        motion: Array,
-        journals: Array,
-        rotation: Array,
-        kick: Array | None,
-        static: Equilibrium[np.float64],
-    ) -> Step:
-        """Take it in one compiled loop."""
-        end, where = np.empty_like(motion), np.empty_like(journals)
-        kick = maps.no_kick if kick is None else kick
-        room = self._law, self._matrix, self._sizes, self._start, self._end, self._nearer, self._moves
-        about = self._offset.reshape(-1), static.journals_at_rest, rotation, kick, motion, journals
-        given: tuple[Array, ...] = *maps.of_step, *room, *about, end, where
-        done = whirl_step(*given)
-        if done == UNSOLVED:
-            raise NoFiniteResult(_NOT_FINITE)
-        return Step(end, where, self._nearer.copy() if done == MIXED else None, None)
 
     def _reacting(self, offset: Array, journals: Array) -> Array:
         """Wrenches under the law: an offset less what stiffness and damping take off it."""

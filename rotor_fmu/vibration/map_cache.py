@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,20 +54,20 @@ class MapCache:
         self._model, self._bare, self._shaft = prepared.model, prepared.modal, shaft
         self._foundation, self._unbalance = prepared.foundation, unbalance
         self._modal = self._on_foundation(ModalCoordinates(self._bare))
-        self._coordinates: OrderedDict[float, Coordinates] = OrderedDict()
+        self._coordinates: OrderedDict[tuple[float], Coordinates] = OrderedDict()
         self._steps: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._works: OrderedDict[tuple[float, float], WorkMaps] = OrderedDict()
         self._kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._unit_kicks: OrderedDict[tuple[float, float], Maps] = OrderedDict()
         self._detunings: OrderedDict[tuple[float, float], tuple[Maps, Maps, Detuning]] = OrderedDict()
-        self._readings: OrderedDict[float | None, Reading] = OrderedDict()
-        self._harmonics: OrderedDict[float, CondensedShaft[np.complex128]] = OrderedDict()
+        self._readings: OrderedDict[tuple[float | None], Reading] = OrderedDict()
+        self._harmonics: OrderedDict[tuple[float], CondensedShaft[np.complex128]] = OrderedDict()
 
     def coordinates(self, speed: float | None) -> Coordinates:
         """The coordinates of a motion: modal for None, else those in which steps at a speed are taken."""
         if speed is None:
             return self._modal
-        return _recall(self._coordinates, speed, lambda: self._new_coordinates(speed))
+        return _recall(self._coordinates, (speed,), self._new_coordinates)
 
     def step(self, speed: float, step: float, end: float = 0.0) -> Maps:
         """Maps over a step, for the nominal unbalance and the lost blade's.
@@ -80,32 +80,32 @@ class MapCache:
             Instant at the end of the step, for its rounding [s].
         """
         length = self._settled(speed, step, end)
-        return _recall(self._steps, (speed, length), lambda: self._new_step(speed, length))
+        return _recall(self._steps, (speed, length), self._new_step)
 
     def turned(self, turning: Turning, end: float = 0.0) -> DetunedMaps:
         """Maps over a step in which the speed changes, for unbalances whose pull is `Turning.pull`."""
         speed = turning.reference
         length = self._settled(speed, turning.step, end)
-        found = _recall(self._detunings, (speed, length), lambda: self._new_detuning(speed, length))
+        found = _recall(self._detunings, (speed, length), self._new_detuning)
         return DetunedMaps(*found, turning.mean - speed, turning.acceleration)
 
     def reading(self, speed: float | None) -> Reading:
         """What a motion in the coordinates of a speed is along the pulls of the unbalances, for each kg m."""
-        return _recall(self._readings, speed, lambda: self._new_reading(speed))
+        return _recall(self._readings, (speed,), self._new_reading)
 
     def work(self, speed: float, step: float, end: float = 0.0) -> WorkMaps:
         """Works over a step of which `step` has been asked, or over a part of one."""
         length = self._settled(speed, step, end)
-        return _recall(self._works, (speed, length), lambda: self._new_work(speed, length))
+        return _recall(self._works, (speed, length), self._new_work)
 
     def kick(self, speed: float, duration: float, angle: float, loss: int = 1) -> Array:
         """Motion after `duration` from rest under the unbalance of a loss, from `angle` on, (2 m,)."""
-        maps = _recall(self._kicks, (speed, duration), lambda: self._new_step(speed, duration))
+        maps = _recall(self._kicks, (speed, duration), self._new_step)
         return self._pushed(maps, complex(math.cos(angle), math.sin(angle)), loss)
 
     def turned_kick(self, turning: Turning, speed: float, loss: int = 1) -> Array:
         """The same at changing speed, in the coordinates of a speed of the grid."""
-        maps = _recall(self._unit_kicks, (speed, turning.step), lambda: self._unit_maps(speed, turning.step))
+        maps = _recall(self._unit_kicks, (speed, turning.step), self._unit_maps)
         return self._pushed(maps, turning.pull(speed), loss)
 
     def _pushed(self, maps: Maps, pull: complex, loss: int) -> Array:
@@ -115,7 +115,7 @@ class MapCache:
 
     def harmonic(self, speed: float) -> CondensedShaft[np.complex128]:
         """Steady vibration under the nominal unbalance, condensed onto the journals."""
-        return _recall(self._harmonics, speed, lambda: self._new_harmonic(speed))
+        return _recall(self._harmonics, (speed,), self._new_harmonic)
 
     def _settled(self, speed: float, step: float, end: float) -> float:
         if (speed, step) in self._steps or (speed, step) in self._detunings:
@@ -155,12 +155,13 @@ class MapCache:
         return condense_harmonic(self._model, self._shaft, speed, nominal)
 
 
-def _recall(items: OrderedDict, key: object, make: Callable[[], Item]) -> Item:
-    """The item of a key, made if new; the least recently used one gives way."""
-    if key in items:
+def _recall(items: OrderedDict[Any, Item], key: tuple[Any, ...], make: Callable[..., Item]) -> Item:
+    """The item of a key, made of it if new; the least recently used one gives way."""
+    found = items.get(key)
+    if found is not None:
         items.move_to_end(key)
-    else:
-        items[key] = make()
-        if len(items) > CAPACITY:
-            items.popitem(last=False)
-    return items[key]
+        return found
+    made = items[key] = make(*key)
+    if len(items) > CAPACITY:
+        items.popitem(last=False)
+    return made

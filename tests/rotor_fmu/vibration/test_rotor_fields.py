@@ -98,7 +98,7 @@ def test_fields_are_those_of_the_present_instant():
     law = linear_bearings()
 
     def answers(rotor):
-        return np.concatenate([*vars(rotor.fields()).values(), rotor.extremes(), rotor.energy()])
+        return np.concatenate([rotor.fields().all.ravel(), rotor.extremes(), rotor.energy()])
 
     def fresh(steps):
         rotor = small_rotor(gravity=GRAVITY)

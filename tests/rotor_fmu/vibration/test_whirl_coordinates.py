@@ -87,7 +87,7 @@ def whirling(decoupled, speeds=(157.0,), fracture_time=5.5e-4, stiffness=1e8):
         fracture_time=fracture_time,
     )
     if not decoupled:
-        rotor._maps._coordinates.update((speed, rotor._maps._modal) for speed in speeds)
+        rotor._maps._coordinates.update(((speed,), rotor._maps._modal) for speed in speeds)
     rotor.start_from_law(*law, orbit=True)
     for k in range(20):
         rotor.step(k * STEP, STEP, *law, speeds[k % len(speeds)])
