@@ -83,8 +83,8 @@ class BearingSlave(UnitSlave):
         self.advance(self.start_time, 0.0)
 
     def advance(self, time: float, step: float) -> None:
-        """Evaluate the film at the inputs, those at the end of the step; take on outputs and state, or nothing."""
-        try:
+        """Evaluate the film at the inputs, which are those at the end of the step."""
+        try:  # outputs and state together are taken on, or nothing
             outputs, state = self._film.evaluate(self._state, self.inputs, step)
         except ArithmeticError as error:
             raise UnitError(f"film failed: {error}", port.Failure.FILM) from None
