@@ -123,8 +123,7 @@ class System:
         self.bearing_group: Group = self.graph.group([b.name for b in bearings])
         self.groups = (self.rotor_group, self.bearing_group)
         self.rollback = Rollback(self.units, self.graph)
-        self._all_laws = Block(rotor, [*_at_bearings(n, port.LAW)], self.laws.reshape(-1))
-        self._law_blocks = [Block(rotor, _at_bearing(i, port.LAW), law) for i, law in enumerate(self.laws, 1)]
+        self._law_blocks: dict[tuple[int, int], Block] = {}
         self._friction = inputs[turned][len(port.SWITCHES) + 1 :]
         self._turning = Block(rotor, rotor_inputs[turned], inputs[turned])
         self._defect = np.empty((n, 4))
@@ -193,11 +192,11 @@ class System:
     def tell_laws(self, changed: Sequence[int]) -> None:
         """Tell the rotor over FMI what has changed in `laws`, by numbers of bearings, and what turns it."""
         start = perf_counter()
-        if 2 * len(changed) > len(self.laws):
-            self._all_laws.set()
-        else:
-            for k in changed:
-                self._law_blocks[k].set()
+        for first, end in _runs(changed) if 2 * len(changed) <= len(self.laws) else [(0, len(self.laws))]:
+            if (first, end) not in self._law_blocks:
+                names = [port.at_bearing(k + 1, name) for k in range(first, end) for name in port.LAW]
+                self._law_blocks[first, end] = Block(self.rotor, names, self.laws[first:end].reshape(-1))
+            self._law_blocks[first, end].set()
         if self.turning:
             self._friction[:] = self.responses[:, RESPONSE[port.FRICTION_POWER]]
             self._turning.set()
@@ -253,6 +252,15 @@ def port_connections(
             yield Connection(rotor, port.ROTATION, bearing, port.SPEED)
             power = port.at_bearing(index, port.FRICTION_POWER)
             yield Connection(bearing, port.FRICTION_POWER, rotor, power)
+
+
+def _runs(numbers: Sequence[int]) -> list[tuple[int, int]]:
+    """First and end of runs of neighbours among ascending numbers: they travel in one call."""
+    runs: list[tuple[int, int]] = []
+    for k in numbers:
+        first = runs.pop()[0] if runs and runs[-1][1] == k else k
+        runs.append((first, k + 1))
+    return runs
 
 
 def _at_bearings(count: int, names: Iterable[str]) -> Iterator[str]:

@@ -7,7 +7,7 @@ from fmus import port
 from orchestrator.errors import PortError
 from orchestrator.fmi.unit import Unit
 from orchestrator.master.graph import Connection, Graph
-from orchestrator.master.system import RESPONSE, System, Wiring, port_connections
+from orchestrator.master.system import RESPONSE, System, Wiring, _runs, port_connections
 from tests.orchestrator.oscillator import released
 
 
@@ -20,6 +20,24 @@ def test_values_travel_along_the_port(store, toy_fmus):
     assert system.forces[0, 0] == pytest.approx(-3e3)
     assert system.responses[0, RESPONSE["K[1,1]"]] == 3e6
     system.close()
+
+
+@pytest.mark.parametrize("changed", [[], [0], [1], [0, 1]])
+def test_laws_that_changed_are_told(store, toy_fmus, changed):
+    system = released(store, toy_fmus)
+    names = [[port.at_bearing(i, name) for name in port.LAW] for i in (1, 2)]
+    before = [system.rotor.get_real(part) for part in names]
+    system.laws[:] = np.arange(72.0).reshape(2, 36) + 1.0
+    system.tell_laws(changed)
+    for k, part in enumerate(names):
+        expected = system.laws[k] if k in changed else before[k]
+        np.testing.assert_array_equal(system.rotor.get_real(part), expected)
+    system.close()
+
+
+def test_neighbours_travel_in_one_call():
+    assert _runs([]) == []
+    assert _runs([0, 1, 3, 5, 6, 7]) == [(0, 2), (3, 4), (5, 8)]
 
 
 def test_force_wiring_leaves_the_tangents_at_zero(store, toy_fmus):
