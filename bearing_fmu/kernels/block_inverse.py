@@ -24,6 +24,12 @@ _LEAST = 1e-3
 
 
 @inner_kernel
+def ones_at(width: int) -> int:
+    """Return where in the work space ones stand, at least eight, behind `set_windows`."""
+    return 4 * width + 4
+
+
+@inner_kernel
 def _invert_by_pairs(s: Floats, at: int, n: int, width: int, work: Floats, kept: Floats) -> bool:
     """Invert the block at `at` in place, by pairs of pivots on the diagonal; it is `kept`, too.
 
@@ -37,7 +43,7 @@ def _invert_by_pairs(s: Floats, at: int, n: int, width: int, work: Floats, kept:
         False where too little is left of a pair.
     """
     pair, inverse = 2 * width, 4 * width
-    blank, unit = inverse + 4, inverse + 4 + 2 * width
+    blank, unit = ones_at(width), ones_at(width) + 2 * width
     tiled, one = n // TILE * TILE, blank
     for pivot in range(0, n, 2):
         row = at + pivot * width
@@ -76,7 +82,7 @@ def _invert_by_pairs(s: Floats, at: int, n: int, width: int, work: Floats, kept:
 @inner_kernel
 def set_windows(n: int, width: int, work: Floats) -> None:
     """Prepare what blanks the columns of a pair, and what is one in one of them."""
-    blank = 4 * width + 4
+    blank = ones_at(width)
     for k in range(4 * width):
         work[blank + k] = 1.0 if k < 2 * width else 0.0
     work[blank + width], work[blank + width + 1] = 0.0, 0.0

@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_fmu.kernels.block_inverse import invert, set_windows
+from bearing_fmu.kernels.block_inverse import invert, ones_at, set_windows
 from bearing_fmu.kernels.compiled import inner_kernel, kernel
+from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.vector import (
     LANES,
     TILE,
@@ -29,35 +30,37 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
-def _multiply(target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int) -> None:
-    """Set one block to the product of two."""
+def _multiply(
+    target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int, wide: int
+) -> None:
+    """Set a matrix of `wide` columns to the product of a block and such a matrix."""
     tiled = n // TILE * TILE
     for j in range(0, tiled, TILE):
-        for k in range(0, width, LANES):
+        for k in range(0, wide, LANES):
             set_tile(
-                target, to + j * width + k, width, b, 0, a, at + j * width, 1, width, b, start + k, width, n
+                target, to + j * wide + k, wide, b, 0, a, at + j * width, 1, width, b, start + k, wide, n
             )
     for j in range(tiled, n):
-        for k in range(0, width, LANES):
-            set_rows(target, to + j * width + k, a, at + j * width, 1, b, start + k, width, n)
+        for k in range(0, wide, LANES):
+            set_rows(target, to + j * wide + k, a, at + j * width, 1, b, start + k, wide, n)
 
 
 @inner_kernel
 def _subtract_product(
-    target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int, ones: Floats,
-    place: int,
+    target: Floats, to: int, a: Floats, at: int, b: Floats, start: int, n: int, width: int, wide: int,
+    ones: Floats, place: int,
 ) -> None:  # fmt: skip
-    """Subtract the product of two blocks from one; from `place` on eight `ones`."""
+    """Subtract such a product from a matrix; from `place` on eight `ones`."""
     tiled = n // TILE * TILE
     for j in range(0, tiled, TILE):
-        for k in range(0, width, LANES):
+        for k in range(0, wide, LANES):
             subtract_tile(
-                target, to + j * width + k, width, ones, place, a, at + j * width, 1, width,
-                b, start + k, width, n,
+                target, to + j * wide + k, wide, ones, place, a, at + j * width, 1, width,
+                b, start + k, wide, n,
             )  # fmt: skip
     for j in range(tiled, n):
-        for k in range(0, width, LANES):
-            subtract_rows(target, to + j * width + k, a, at + j * width, 1, b, start + k, width, n)
+        for k in range(0, wide, LANES):
+            subtract_rows(target, to + j * wide + k, a, at + j * width, 1, b, start + k, wide, n)
 
 
 def ring_work(n: int) -> Floats:
@@ -115,9 +118,9 @@ def factorise_ring(
                 u[j * width + j] -= lower[i * width + j]
         if not invert(b, at, n, width, row, kept):
             return False
-        _multiply(w, at, v, 0, b, at, n, width)
-        _multiply(y, at, b, at, u, 0, n, width)
-        _subtract_product(b, last, w, at, u, 0, n, width, row, 4 * width + 4)
+        _multiply(w, at, v, 0, b, at, n, width, width)
+        _multiply(y, at, b, at, u, 0, n, width, width)
+        _subtract_product(b, last, w, at, u, 0, n, width, width, row, ones_at(width))
         if i < count - 2:
             ahead = at + block
             for j in range(n):
@@ -128,19 +131,6 @@ def factorise_ring(
                     set_rows(row, k, upper, i * width + j, 0, b, at + here, 0, 1)
                     subtract_product(b, ahead + here, row, k, lower, low)
     return invert(b, last, n, width, row, kept)
-
-
-@inner_kernel
-def transpose_ring(b: Floats, w: Floats, y: Floats, count: int, n: int, width: int) -> None:
-    """Turn a factor into that of the transposed system: `lower` and `upper`, `w` and `y` change places."""
-    for i in range(count):
-        at = i * n * width
-        for j in range(n):
-            for k in range(j + 1, n):
-                here, there = at + j * width + k, at + k * width + j
-                b[here], b[there] = b[there], b[here]
-                w[here], w[there] = w[there], w[here]
-                y[here], y[there] = y[there], y[here]
 
 
 @kernel
@@ -184,3 +174,39 @@ def solve_ring(
                     row[k] = upper[i * width + k] * x[at + rows + m + k]
                 for k in range(0, width, LANES):
                     add_rows(x, at + m + k, row, 0, 1, b, i * block + k, width, n)
+
+
+@kernel
+def solve_transposed(
+    b: Floats, lower: Floats, upper: Floats, w: Floats, y: Floats, x: Floats, work: Floats,
+    count: int, n: int, width: int,
+) -> None:  # fmt: skip
+    """Solve the transposed system for eight right-hand sides with the factor of `factorise_ring`.
+
+    Parameters
+    ----------
+    b, lower, upper, w, y, work : ndarray
+        As left by `factorise_ring`.
+    x : ndarray, shape (count * n * 8,)
+        Right-hand sides, for each unknown a number a side; on return the solutions.
+    """
+    block, rows = n * width, n * LANES
+    last, row, ones = (count - 1) * rows, work[:rows], 3 * block + ones_at(width)
+    for i in range(count):
+        at = i * rows
+        copy(x[at : at + rows], row)
+        _multiply(x, at, b, i * block, row, 0, n, width, LANES)
+        if i < count - 1:
+            _subtract_product(x, last, w, i * block, row, 0, n, width, LANES, work, ones)
+        if i < count - 2:
+            for j in range(n):
+                for k in range(j * LANES, j * LANES + LANES):
+                    x[at + rows + k] += upper[i * width + j] * x[at + k]
+    for i in range(count - 2, -1, -1):
+        at = i * rows
+        _subtract_product(x, at, y, i * block, x, last, n, width, LANES, work, ones)
+        if i < count - 2:
+            for j in range(n):
+                for k in range(j * LANES, j * LANES + LANES):
+                    row[k] = -lower[i * width + j] * x[at + rows + k]
+            _subtract_product(x, at, b, i * block, row, 0, n, width, LANES, work, ones)

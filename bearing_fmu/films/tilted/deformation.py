@@ -21,11 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearing_fmu.films.tilted.layered import KEPT, RATE, SOURCE, STEP, LayeredFilm
-from bearing_fmu.films.tilted.tangent import BY_METRIC, TANGENT
 from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.copied import copy
-from bearing_fmu.kernels.grid import COS, METRIC, MOTION, SIN, STRETCHING
+from bearing_fmu.kernels.grid import COS, SIN
 from bearing_fmu.result import DAMPING, STIFFNESS
 
 Floats = NDArray[np.float64]
@@ -118,55 +117,11 @@ def bring_over(layered: LayeredFilm, of: float) -> None:
 
 
 @inner_kernel
-def add_deformation(layered: LayeredFilm, k: int, ambient: float, result: Floats) -> None:
-    """Add what the wall's rate of deformation brings to the residual's tangent along q_k, and to dF/dv_k."""
-    film = layered.film
-    n, m = layered.was.shape[1], layered.was.shape[2]
-    rate, soft, cell = layered.time[RATE], layered.constants[2], 2.0 * np.pi / m
-    if rate == 0.0:
-        return
-    metric = film.rings[0, METRIC]
-    motion, stretching = film.rings[0, MOTION + k], film.rings[0, STRETCHING + k]
-    s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
-    for j in range(n):
-        volume, tangent = film.forcing[BY_METRIC, j], film.forcing[TANGENT, j]
-        was, slope, pressure = layered.was[0, j], layered.was[1, j], film.pressures[0, j]
-        for i in range(m):
-            area = cell * metric[i]
-            given = soft * max(pressure[i] + ambient, 0.0) - was[i]
-            tangent[i] += volume[i] * area * rate * stretching[i] * given
-            passed = -volume[i] * area * slope[i] * motion[i]
-            s0 += film.pressures[1, j, i] * passed
-            s1 += film.pressures[2, j, i] * passed
-            s2 += film.pressures[3, j, i] * passed
-            s3 += film.pressures[4, j, i] * passed
-    result[DAMPING + k] += s0
-    result[DAMPING + 4 + k] += s1
-    result[DAMPING + 8 + k] += s2
-    result[DAMPING + 12 + k] += s3
-
-
-@inner_kernel
-def add_drift(layered: LayeredFilm, v: Floats, ambient: float, result: Floats) -> None:
+def add_drift(layered: LayeredFilm, v: Floats, result: Floats) -> None:
     """Count by what the wrench changes, as the wall goes on giving way, as of the journal's way."""
-    film = layered.film
-    n, m = layered.was.shape[1], layered.was.shape[2]
-    rate, soft, cell = layered.time[RATE], layered.constants[2], 2.0 * np.pi / m
+    rate, drift = layered.time[RATE], layered.drift
     if rate == 0.0:
         return
-    metric, drift = film.rings[0, METRIC], layered.drift
-    drift[:] = 0.0
-    for j in range(n):
-        volume, was, slope = film.forcing[BY_METRIC, j], layered.was[0, j], layered.was[1, j]
-        pressure = film.pressures[0, j]
-        for i in range(m):
-            passed = 0.0
-            for k in range(4):
-                passed += film.rings[0, MOTION + k, i] * v[k]
-            gained = rate * (soft * max(pressure[i] + ambient, 0.0) - was[i]) + slope[i] * passed
-            brings = -volume[i] * cell * metric[i] * gained
-            for k in range(4):
-                drift[k] += film.pressures[k + 1, j, i] * brings
     way, kick, way_kick = layered.way[0], layered.way[1], 0.0
     size, stiff, step = 0.0, 0.0, layered.time[STEP]
     for k in range(4):

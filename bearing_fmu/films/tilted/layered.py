@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from bearing_fmu.contact.slice import CONTACT_RESULTS
 from bearing_fmu.films.tilted.corner_films import TiltedFilms
 from bearing_fmu.films.tilted.workspace import TiltedFilm, work_space
-from bearing_fmu.kernels.cells import AxialCells
+from bearing_fmu.kernels.cells import NEAR, AxialCells
 from bearing_fmu.kernels.unsymmetric_solver import ring_work
-from bearing_fmu.kernels.vector import padded
+from bearing_fmu.kernels.vector import LANES, padded
 from bearing_fmu.result import FIELDS, RESULTS
 
 Floats = NDArray[np.float64]
@@ -39,8 +39,13 @@ class LayeredFilm(NamedTuple):
     lines: Floats  #: (lines, 1 + NEAR) what makes the pressure on those where the asperities' force is summed
     places: Floats  #: (2, lines) z of the lines, and their weights
     faces: Floats  #: (n + 1, 2 + NEAR) z of the axial faces, and what makes the pressure there
-    explicit: Floats  #: (16,) work space
+    adjoint: Floats  #: (m n 8,) four adjoint pressures
+    over_z: Floats  #: (4, 10, m') of each adjoint pressure, see `layered_residual`
+    moments: Floats  #: (6, m') on the columns, see `layered_contact`
     kept: Floats  #: (m n',) pressure before a step
+    pressed: Floats  #: (n, m'') how far the film presses the wall back at the columns, and again at the first
+    rows: Floats  #: (4, m'') work space
+    near: Floats  #: (n, NEAR + 1, m') of the Jacobian, of each cell the next ones along the axis
     advected: (
         Floats  #: (3, n, m') change of the wedge by the deflection before and behind the faces, of the flow
     )
@@ -107,8 +112,13 @@ def layered_film(
         lines=cells.between(places),
         places=np.array((places, weights)),
         faces=np.hstack((cells.faces[:, None], cells.between(cells.faces))),
-        explicit=np.zeros(16),
+        adjoint=np.zeros(m * n * LANES),
+        over_z=np.zeros((4, 10, length)),
+        moments=np.zeros((6, length)),
         kept=np.zeros(m * width),
+        pressed=np.zeros((n, padded(m + 1))),
+        rows=np.zeros((4, padded(m + 1))),
+        near=np.zeros((n, NEAR + 1, length)),
         advected=np.zeros((3, n, length)),
         outer=np.zeros((3, 2, length)),
         across=np.zeros((FIELDS, n + 1, length)),

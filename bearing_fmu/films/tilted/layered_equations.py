@@ -1,4 +1,4 @@
-"""The discrete equations of V1 on a soft layer: residual and Jacobian.
+"""The discrete equations of V1 on a soft layer: what flows, and the residual; `layered_jacobian`: its slope.
 
 Film and asperities press the wall back, and the gap follows from both: at each node the rigid gap plus c
 times the film's pressure is the gap s without asperities, from which `bearing_fmu.contact.layer` gives
@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from bearing_fmu.bore.gap import flow_gap
 from bearing_fmu.contact.asperities import REACH
 from bearing_fmu.contact.edge import edge_flow
-from bearing_fmu.contact.layer import deflection, rough_flow
+from bearing_fmu.contact.layer import deflection, rough_flow, set_rough_flow
 from bearing_fmu.films.tilted.layered import RATE, LayeredFilm
+from bearing_fmu.films.tilted.layered_jacobian import BY_END, BY_GAP, BY_PRESS, set_jacobian
 from bearing_fmu.kernels.cells import NEAR
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.grid import COS, METRIC, SIN
@@ -32,9 +33,7 @@ Floats = NDArray[np.float64]
 #: steep that is: nothing is smeared where it is smooth, and no swing stays that goes from column to column.
 STEEP = 0.3
 _FLAT = 1e-12
-#: Change of the logarithm of an axial conductance by the gap; of the ends' by that in the middle of the last
-#: cell, by that at the end, and by how far the film presses back.
-BY_GAP, BY_END, BY_PRESS = POWER, OPEN_1, OPEN_2
+_NONE = 1e-300  #: of a deflection over the clearance
 
 
 @inner_kernel
@@ -46,22 +45,48 @@ def _gap(layered: LayeredFilm, s: float) -> tuple[float, float, float]:
 
 
 @inner_kernel
-def _set_columns(layered: LayeredFilm, ambient: float) -> None:
-    """Open gap at the columns."""
-    film = layered.film
+def _press_back(layered: LayeredFilm, ambient: float) -> None:
+    """How far the film presses the wall back at the columns, and behind the last one at the first."""
+    film, soft = layered.film, layered.constants[2]
     n, m = film.face.shape[1], film.circle.shape[2]
-    sigma, soft = layered.constants[1], layered.constants[2]
+    for j in range(n):
+        pressed, pressure = layered.pressed[j], film.pressures[0, j]
+        for i in range(m):
+            pressed[i] = soft * max(pressure[i] + ambient, 0.0)
+        pressed[m] = pressed[0]
+
+
+@inner_kernel
+def _set_columns(layered: LayeredFilm) -> None:
+    """Open gap at the columns."""
+    film, sigma = layered.film, layered.constants[1]
+    n, m = film.face.shape[1], film.circle.shape[2]
     near = REACH * sigma
     for j in range(n):
-        field, pressure = film.column[:, j], film.pressures[0, j]
+        gap, pressed = film.column[GAP, j], layered.pressed[j]
+        open_, open_1, open_2 = film.column[OPEN, j], film.column[OPEN_1, j], film.column[OPEN_2, j]
         for i in range(m):
-            h = field[GAP, i] + soft * max(pressure[i] + ambient, 0.0)
-            t, t1, t2 = h, 1.0, 0.0
-            if h < near:
-                h, h1, h2 = _gap(layered, h)
+            open_[i] = gap[i] + pressed[i]
+            open_1[i] = 1.0
+            open_2[i] = 0.0
+        for i in range(m):
+            if open_[i] < near:
+                h, h1, h2 = _gap(layered, open_[i])
                 t, t1, t2 = flow_gap(h, sigma)
-                t1, t2 = t1 * h1, t2 * h1 * h1 + t1 * h2
-            field[OPEN, i], field[OPEN_1, i], field[OPEN_2, i] = t, t1, t2
+                open_[i], open_1[i], open_2[i] = t, t1 * h1, t2 * h1 * h1 + t1 * h2
+
+
+@inner_kernel
+def _set_flow(layered: LayeredFilm, gap: Floats, flow: Floats, slope: Floats) -> None:
+    """Flow of gaps without asperities, and the changes of its logarithm by them."""
+    m, sigma = layered.film.circle.shape[2], layered.constants[1]
+    near, cube = REACH * sigma, sigma**3
+    set_rough_flow(m, sigma, gap, flow, slope)
+    for i in range(m):
+        if gap[i] < near:
+            h, h1, _ = _gap(layered, gap[i])
+            rough, rough_1 = rough_flow(h / sigma)
+            flow[i], slope[i] = cube * rough, rough_1 / (rough * sigma) * h1
 
 
 @inner_kernel
@@ -69,87 +94,72 @@ def _set_across(layered: LayeredFilm, ambient: float) -> None:
     """Conductance along the axis at the axial faces, with its change by the gap."""
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
-    sigma, soft = layered.constants[1], layered.constants[2]
-    metric, near = film.rings[0, METRIC], REACH * sigma
-    scale = 2.0 * np.pi / m * sigma**3 * layered.constants[4]
+    sigma, soft, s = layered.constants[1], layered.constants[2], layered.rows[0]
+    metric, scale = film.rings[0, METRIC], 2.0 * np.pi / m * layered.constants[4]
     for k in range(1, n):
         row = int(layered.faces[k, 1])
-        gap, along, by_gap = (
-            layered.across[GAP, k],
-            layered.across[CONDUCTANCE, k],
-            layered.across[BY_GAP, k],
-        )
+        gap, along = layered.across[GAP, k], layered.across[CONDUCTANCE, k]
         for i in range(m):
-            along[i] = gap[i]
+            s[i] = gap[i]
         for near_by in range(NEAR):
-            part = soft * layered.faces[k, 2 + near_by]
-            if part != 0.0:
-                pressure = film.pressures[0, row + near_by]
-                for i in range(m):
-                    along[i] += part * max(pressure[i] + ambient, 0.0)
+            part, pressed = layered.faces[k, 2 + near_by], layered.pressed[row + near_by]
+            for i in range(m):
+                s[i] += part * pressed[i]
+        _set_flow(layered, s, along, layered.across[BY_GAP, k])
         for i in range(m):
-            h, h1 = along[i], 1.0
-            if h < near:
-                h, h1, _ = _gap(layered, h)
-            flow, flow1 = rough_flow(h / sigma)
-            along[i], by_gap[i] = scale * metric[i] * flow, flow1 / (flow * sigma) * h1
+            along[i] *= scale * metric[i]
     press = soft * max(ambient, 0.0)
     for k in (0, n):
         row = 0 if k == 0 else n - 1
-        gap, pressure, field = film.column[GAP, row], film.pressures[0, row], layered.across[:, k]
+        gap, pressed, field = film.column[GAP, row], layered.pressed[row], layered.across[:, k]
         for i in range(m):
-            pressed = soft * max(pressure[i] + ambient, 0.0)
             flow, by_inside, by_end, by_press = edge_flow(
-                (gap[i] + pressed) / sigma,
+                (gap[i] + pressed[i]) / sigma,
                 (field[GAP, i] + press) / sigma,
-                max(pressed - press, 0.0) / sigma,
+                max(pressed[i] - press, 0.0) / sigma,
                 layered.edge,
             )
-            field[CONDUCTANCE, i] = scale * metric[i] * flow
+            field[CONDUCTANCE, i] = scale * sigma**3 * metric[i] * flow
             field[BY_GAP, i], field[BY_END, i] = by_inside / sigma, by_end / sigma
-            field[BY_PRESS, i] = by_inside / sigma + (by_press / sigma if pressed > press else 0.0)
+            field[BY_PRESS, i] = by_inside / sigma + (by_press / sigma if pressed[i] > press else 0.0)
 
 
 @inner_kernel
-def _advected(here: float, there: float, steep: float) -> tuple[float, float, float]:
-    """Deflection advected over a face, with its changes by those at the columns before and behind."""
-    drop, both = here - there, here + there
-    ratio = drop / both if both > 0.0 else 0.0
-    more = steep * ratio * ratio
-    by_drop, by_both = 3.0 * more, -2.0 * more * ratio
-    return 0.5 * both + more * drop, 0.5 + by_drop + by_both, 0.5 - by_drop + by_both
-
-
-@inner_kernel
-def _set_faces(layered: LayeredFilm, speed: float, ambient: float) -> None:
+def _set_faces(layered: LayeredFilm, speed: float) -> None:
     """Wedge and conductance around at the faces, with their changes by the deflection."""
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
-    cell, sigma, soft = 2.0 * np.pi / m, layered.constants[1], layered.constants[2]
-    metric, steep = film.rings[1, METRIC], STEEP if speed >= 0.0 else -STEEP
+    cell, sigma, s = 2.0 * np.pi / m, layered.constants[1], layered.rows[0]
+    metric, steep, near = film.rings[1, METRIC], STEEP if speed >= 0.0 else -STEEP, REACH * sigma
     for j in range(n):
-        field, scale, pressure = film.face[:, j], film.weights[j] / cell * sigma**3, film.pressures[0, j]
+        weight, gap, pressed = film.weights[j], film.face[GAP, j], layered.pressed[j]
+        open_, open_1 = film.face[OPEN, j], film.face[OPEN_1, j]
+        before, behind = layered.advected[0, j], layered.advected[1, j]
         for i in range(m):
-            fore = i + 1 if i + 1 < m else 0
-            here = soft * max(pressure[i] + ambient, 0.0)
-            there = soft * max(pressure[fore] + ambient, 0.0)
-            h, h1 = field[GAP, i] + 0.5 * (here + there), 1.0
-            gone, by_here, by_there = _advected(here, there, steep)
-            t, t1 = field[GAP, i] + gone, 1.0
-            if h < REACH * sigma:
-                h, h1, _ = _gap(layered, h)
-            if t < REACH * sigma:
-                t, own, _ = _gap(layered, t)
-                t, t1, _ = flow_gap(t, sigma)
-                t1 *= own
-            flow, flow1 = rough_flow(h / sigma)
-            slope = flow1 / (flow * sigma) * h1
-            field[OPEN, i], field[OPEN_1, i] = t, t1
-            field[CONDUCTANCE, i] = scale / metric[i] * flow
-            field[POWER, i] = slope * t / max(t1, _FLAT)
-            wedge = film.weights[j] * speed * t1
-            layered.advected[0, j, i], layered.advected[1, j, i] = by_here * wedge, by_there * wedge
-            layered.advected[2, j, i] = slope * field[CONDUCTANCE, i] * (pressure[fore] - pressure[i])
+            # the deflection that is advected, with its changes by those at the columns before and behind
+            drop, both = pressed[i] - pressed[i + 1], pressed[i] + pressed[i + 1]
+            ratio = drop / max(both, _NONE)
+            more = steep * ratio * ratio
+            by_drop, by_both = 3.0 * more, 0.5 - 2.0 * more * ratio
+            s[i] = gap[i] + 0.5 * both
+            open_[i] = gap[i] + 0.5 * both + more * drop
+            before[i], behind[i] = by_both + by_drop, by_both - by_drop
+        flow, slope = film.face[CONDUCTANCE, j], film.face[POWER, j]
+        _set_flow(layered, s, flow, slope)
+        for i in range(m):
+            open_1[i] = 1.0
+        for i in range(m):
+            if open_[i] < near:
+                h, h1, _ = _gap(layered, open_[i])
+                t, t1, _ = flow_gap(h, sigma)
+                open_[i], open_1[i] = t, t1 * h1
+        bent, difference, scale = layered.advected[2, j], film.pressures[0, n + j], weight / cell
+        for i in range(m):
+            before[i] *= weight * speed * open_1[i]
+            behind[i] *= weight * speed * open_1[i]
+            flow[i] *= scale / metric[i]
+            bent[i] = slope[i] * flow[i] * difference[i]
+            slope[i] *= open_[i] / max(open_1[i], _FLAT)
 
 
 @inner_kernel
@@ -166,40 +176,6 @@ def shape_across(layered: LayeredFilm, q: Floats) -> None:
 
 
 @inner_kernel
-def _add_axial(layered: LayeredFilm, ambient: float) -> None:
-    """What flows along the axis, in the Jacobian."""
-    film = layered.film
-    n, m = film.face.shape[1], film.circle.shape[2]
-    width = film.coupling.shape[0] // m
-    block, soft, b = n * width, layered.constants[2], layered.blocks[0]
-    for q in range(n + 1):
-        flux, by_gap, along = (
-            layered.across[CONDUCTANCE, q],
-            layered.across[BY_PRESS if q == 0 or q == n else BY_GAP, q],
-            film.pressures[0, 2 * n + q],
-        )
-        end = q == 0 or q == n
-        start = int(layered.faces[q, 1])
-        for j in range(n):
-            slope, share = film.slopes[q * n + j], 0.0
-            if end:
-                share = soft if j == (0 if q == 0 else n - 1) else 0.0
-            elif start <= j < start + NEAR:
-                share = soft * layered.faces[q, 2 + j - start]
-            if slope != 0.0 or share != 0.0:
-                pressure = film.pressures[0, j]
-                for i in range(m):
-                    presses = share if pressure[i] + ambient > 0.0 else 0.0
-                    part = flux[i] * (slope + presses * by_gap[i] * along[i])
-                    # into the cell before the face, out of the one after it
-                    at = i * block + j * width + q
-                    if q > 0:
-                        b[at - 1] -= part
-                    if q < n:
-                        b[at] += part
-
-
-@inner_kernel
 def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, whole: bool) -> float:
     """Residual, and where the `whole` is wanted the Jacobian, transposed as the solver wants it.
 
@@ -211,44 +187,37 @@ def linearise(layered: LayeredFilm, v: Floats, speed: float, ambient: float, who
     film = layered.film
     n, m = film.face.shape[1], film.circle.shape[2]
     width = film.coupling.shape[0] // m
-    block, soft, square = n * width, layered.constants[2], 0.0
-    rate, cell = layered.time[RATE], 2.0 * np.pi / m
+    square, gives = 0.0, 2.0 * np.pi / m * layered.time[RATE]
     cos, sin, metric = film.rings[1, COS], film.rings[1, SIN], film.rings[0, METRIC]
-    b, sides, pressures = layered.blocks[0], film.sides, film.pressures[0]
-    _set_columns(layered, ambient)
-    _set_faces(layered, speed, ambient)
+    flow, side, dcos, dsin = layered.rows[0], layered.rows[1], layered.rows[2], layered.rows[3]
+    pressures = film.pressures[0]
+    _press_back(layered, ambient)
+    _set_columns(layered)
+    _set_faces(layered, speed)
     _set_across(layered, ambient)
-    if whole:
-        b[:] = 0.0
-        _add_axial(layered, ambient)
+    dcos[0], dsin[0] = cos[0] - cos[m - 1], sin[0] - sin[m - 1]
+    for i in range(1, m):
+        dcos[i], dsin[i] = cos[i] - cos[i - 1], sin[i] - sin[i - 1]
     for j in range(n):
-        t, along, squeeze = film.face[OPEN, j], film.face[CONDUCTANCE, j], film.column[SQUEEZE, j]
-        t1, t2 = film.column[OPEN_1, j], film.column[OPEN_2, j]
-        wedge, wedge_behind, bent = layered.advected[0, j], layered.advected[1, j], layered.advected[2, j]
-        weight = film.weights[j]
+        t, along, difference = film.face[OPEN, j], film.face[CONDUCTANCE, j], pressures[n + j]
+        squeeze, t1 = film.column[SQUEEZE, j], film.column[OPEN_1, j]
+        pressed, was = layered.pressed[j], layered.was[0, j]
         low, high = layered.across[CONDUCTANCE, j], layered.across[CONDUCTANCE, j + 1]
+        below, above = pressures[2 * n + j], pressures[2 * n + j + 1]
+        weight = film.weights[j]
         ux, uy = v[0] + v[3] * film.nodes[j], v[1] - v[2] * film.nodes[j]
         for i in range(m):
-            back = i - 1 if i > 0 else m - 1
-            fore = i + 1 if i + 1 < m else 0
-            squeeze[i] = uy * (cos[i] - cos[back]) - ux * (sin[i] - sin[back])
-            gives = cell * metric[i] * rate
-            squeeze[i] += gives * (soft * max(pressures[j, i] + ambient, 0.0) - layered.was[0, j, i])
-            at = i * width + j
-            if whole:
-                here = soft if pressures[j, i] + ambient > 0.0 else 0.0
-                there = soft if pressures[j, fore] + ambient > 0.0 else 0.0
-                # flow at the face after column i: by the pressure of column i, and less that of the next
-                own = along[i] + here * (wedge[i] - 0.5 * bent[i])
-                next_ = along[i] - there * (wedge_behind[i] - 0.5 * bent[i])
-                layered.lower[at], layered.upper[at] = own, next_
-                b[i * block + j * width + j] += own
-                b[i * block + j * width + j] += 2.0 * weight * here * (t2[i] * squeeze[i] + t1[i] * gives)
-                b[fore * block + j * width + j] += next_
-            flow = -along[i] * pressures[n + j, i] + weight * speed * t[i]
-            before = -film.face[CONDUCTANCE, j, back] * pressures[n + j, back] + weight * speed * t[back]
-            side = before - flow - 2.0 * weight * t1[i] * squeeze[i]
-            side += high[i] * pressures[2 * n + j + 1, i] - low[i] * pressures[2 * n + j, i]
-            sides[at] = side
-            square += side * side
+            squeeze[i] = uy * dcos[i] - ux * dsin[i] + gives * metric[i] * (pressed[i] - was[i])
+        for i in range(m):
+            flow[1 + i] = weight * speed * t[i] - along[i] * difference[i]
+        flow[0] = flow[m]
+        for i in range(m):
+            side[i] = flow[i] - flow[1 + i] - 2.0 * weight * t1[i] * squeeze[i]
+        for i in range(m):
+            side[i] += high[i] * above[i] - low[i] * below[i]
+        for i in range(m):
+            square += side[i] * side[i]
+            film.sides[i * width + j] = side[i]
+    if whole:
+        set_jacobian(layered, gives)
     return np.sqrt(square)

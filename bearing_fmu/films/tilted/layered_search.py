@@ -25,7 +25,7 @@ from bearing_fmu.films.tilted.workspace import TiltedFilm
 from bearing_fmu.kernels.compiled import inner_kernel, stage
 from bearing_fmu.kernels.copied import copy
 from bearing_fmu.kernels.grid import METRIC
-from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring, transpose_ring
+from bearing_fmu.kernels.unsymmetric_solver import factorise_ring, solve_ring
 from bearing_fmu.result import CONDUCTANCE, FLOW, GAP, OPEN, SHEAR
 from bearing_fmu.status import NO_SOLUTION, NOT_CONVERGED, OK
 
@@ -254,11 +254,9 @@ def solve_layered(
 ) -> int:  # fmt: skip
     """Solve for the pressure, `of` this kind of grid; otherwise as `reynolds.solve_pressure`.
 
-    On return the factor is that of the transposed system, for the adjoint.
+    On return the factor is that of the Jacobian, for the adjoint.
     """
     film = layered.film
-    n, m = film.face.shape[1], film.circle.shape[2]
-    width = film.coupling.shape[0] // m
     shape_gap(film, None, q, sigma, part)
     shape_across(layered, q)
     film.mixed[SHARE] = 0.0
@@ -268,7 +266,6 @@ def solve_layered(
         status = _search(layered, v, speed, ambient)
     if status == OK:
         unfold(film, 0, 0, 1)
-        transpose_ring(layered.blocks[0], layered.blocks[1], layered.blocks[2], m, n, width)
         integrate(layered.sums, None, ambient, result)
         _take_edges(layered, ambient, result)
         result[SHEAR] = _shear(film)
