@@ -123,8 +123,10 @@ class RotorSlave(UnitSlave):
 
     def _braking(self) -> tuple[bool, Braking]:
         """Whether torques decide the speed, and what acts on the rotation now, where that is asked for."""
-        switches = zip(port.SWITCHES, self._switches.tolist(), strict=True)
-        on = {name for name, value in switches if value >= 0.5}
+        values = self._switches.tolist()
+        if not (any(values) or self._drive.torque or self._rotor.keeps_account):
+            return False, NOTHING
+        on = {name for name, value in zip(port.SWITCHES, values, strict=True) if value >= 0.5}
         free = self._drive.is_free(on)
         if not (free or self._rotor.keeps_account):
             return free, NOTHING

@@ -161,7 +161,7 @@ class Recorder(Observer):
         )
         self._noted.since[:] = -np.inf
         self._newest = time
-        waits = self._none if self._whole else self._between.stands < time
+        waits = self._none if self._done is None else self._between.stands < time
         self._between.kept(row, waits, self._told, system.stands_at())
 
     @property
