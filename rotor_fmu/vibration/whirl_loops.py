@@ -37,56 +37,18 @@ def _sum(matrix: Array, pairs: Array, total: Array) -> None:
             total[1, r] += real[r] * b + imaginary[r] * a
 
 
-@inlined
-def _add_product(matrix: Array, pairs: Array, total: Array, target: Array) -> None:
-    for r in range(total.shape[1]):
-        total[0, r] = total[1, r] = 0.0
-    _sum(matrix, pairs, total)
-    for r in range(total.shape[1]):
-        target[2 * r] += total[0, r]
-        target[2 * r + 1] += total[1, r]
-
-
-@inlined
-def _coast(
-    block: Array,
-    growth: Array,
-    matrix: Array,
-    wrench: Array,
-    rotation: Array,
-    before: Array,
-    total: Array,
-    after: Array,
-) -> None:
-    slow = block.shape[1]
-    for r in range(total.shape[1]):
-        total[0, r] = total[1, r] = 0.0
-    _sum(matrix, wrench, total)
-    for j in range(len(rotation)):
-        column, factor = len(wrench) // 2 + j, rotation[j]
-        for r in range(total.shape[1]):
-            total[0, r] += matrix[0, column, r] * factor
-            total[1, r] += matrix[1, column, r] * factor
-    for c in range(slow):
-        for r in range(slow):
-            a, b = before[2 * c], before[2 * c + 1]
-            total[0, r] += block[0, c, r] * a - block[1, c, r] * b
-            total[1, r] += block[0, c, r] * b + block[1, c, r] * a
-    for r in range(total.shape[1]):
-        after[2 * r], after[2 * r + 1] = total[0, r], total[1, r]
-    for r in range(slow, total.shape[1]):
-        g, h = growth[2 * (r - slow)], growth[2 * (r - slow) + 1]
-        after[2 * r] += g * before[2 * r] - h * before[2 * r + 1]
-        after[2 * r + 1] += g * before[2 * r + 1] + h * before[2 * r]
-
-
 @fused
 def add_product(matrix: Array, pairs: Array, total: Array, target: Array) -> None:
     """Add to pairs (2 s,) what the first columns of a matrix make of pairs (2 i,).
 
     Total, (2, s), is memory.
     """
-    _add_product(matrix, pairs, total, target)
+    for r in range(total.shape[1]):
+        total[0, r] = total[1, r] = 0.0
+    _sum(matrix, pairs, total)
+    for r in range(total.shape[1]):
+        target[2 * r] += total[0, r]
+        target[2 * r + 1] += total[1, r]
 
 
 @fused
@@ -117,7 +79,26 @@ def coast(
     total : ndarray, (2, s)
         Memory.
     """
-    _coast(block, growth, matrix, wrench, rotation, before, total, after)
+    slow = block.shape[1]
+    for r in range(total.shape[1]):
+        total[0, r] = total[1, r] = 0.0
+    _sum(matrix, wrench, total)
+    for j in range(len(rotation)):
+        column, factor = len(wrench) // 2 + j, rotation[j]
+        for r in range(total.shape[1]):
+            total[0, r] += matrix[0, column, r] * factor
+            total[1, r] += matrix[1, column, r] * factor
+    for c in range(slow):
+        for r in range(slow):
+            a, b = before[2 * c], before[2 * c + 1]
+            total[0, r] += block[0, c, r] * a - block[1, c, r] * b
+            total[1, r] += block[0, c, r] * b + block[1, c, r] * a
+    for r in range(total.shape[1]):
+        after[2 * r], after[2 * r + 1] = total[0, r], total[1, r]
+    for r in range(slow, total.shape[1]):
+        g, h = growth[2 * (r - slow)], growth[2 * (r - slow) + 1]
+        after[2 * r] += g * before[2 * r] - h * before[2 * r + 1]
+        after[2 * r + 1] += g * before[2 * r + 1] + h * before[2 * r]
 
 
 UNSOLVED, LINEAR, MIXED = range(3)
@@ -187,15 +168,15 @@ def step(
         for i in range(len(first)):
             last[i] = nearer[i] * first[i]
             first[i] -= last[i]
-    _coast(block, growth, of_start, first, rotation, before, total, after)
+    coast(block, growth, of_start, first, rotation, before, total, after)
     if mixes:
-        _add_product(of_end, last, total, after)
+        add_product(of_end, last, total, after)
     for r in range(len(after)):
         after[r] += kick[r]
     for b in range(len(law)):
         for j in range(8):
             journals[b, j] = rest[b, j]
-    _add_product(shown, after, seen, journals.reshape(journals.size))
+    add_product(shown, after, seen, journals.reshape(journals.size))
     if mixes:
         mix(move_start, move_end, nearer, moves)
     solved = end_wrenches(law, offset, moves if mixes else move_end, matrix, journals, last)
@@ -203,8 +184,8 @@ def step(
         for i in range(len(first)):
             first[i] = nearer[i] * last[i]
             last[i] -= first[i]
-        _add_product(of_start, first, total, after)
-    _add_product(of_end, last, total, after)
+        add_product(of_start, first, total, after)
+    add_product(of_end, last, total, after)
     square = 0.0
     for r in range(len(after)):
         square += after[r] * after[r]
