@@ -29,7 +29,7 @@ from orchestrator.whole_file import whole_file
 Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
-VERSION = 5
+VERSION = 6
 
 
 class Keeper(Protocol):

@@ -4,7 +4,8 @@ A bearing whose wrench bends little need not be evaluated at every step of the r
 ``F0 - K q - C v``, expanded where it stood last and bent on as it did before (`rates`), serves until it is
 evaluated again, at the end of an interval of its own.  What the law has missed by then is the defect, against
 the largest force of late: a force that turns with the rotor is as large once in a revolution.
-The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones.  The interval
+The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones; where laws
+bend it goes each in `PARTS`.  The interval
 of a bearing doubles where its defect is calm and halves where it is above `OWN` of the tolerance.  It is
 evaluated early when motion and velocity have changed its wrench so much that the defect, which goes with the
 square of that change, is to be expected above; so nothing need be taken back for it.
@@ -37,11 +38,20 @@ from orchestrator.master.system import System, Wiring
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FINEST = 1e-3
+FINEST = 7e-5
 """Tolerance below which laws are not bent: as the end of the pressure goes over the grid of a film its
-tangent jumps a little, and intervals short enough to follow that lose their order (1.8, not 2, on the small
-train)."""
+tangent jumps a little, and at intervals short enough to follow that the order is not clear."""
 
+
+PARTS = 3
+"""Steps of the rotor under one law where it bends, for within its own the rotor lets wrenches run straight.
+
+An odd number: of what is strongly damped such a step turns the sign of what is too much in its wrench (as the
+trapezoidal rule does); an even number keeps it, and from law to law it adds up.
+"""
+
+STRAIGHT = 0.05
+"""Share of the tolerance within which one part will do next."""
 
 LATE = 2.0
 """Revolutions in which the size that defects are measured by falls to 1/e of what it was."""
@@ -53,7 +63,8 @@ class _Room:
     def __init__(self, n: int) -> None:
         self.changed, self.due, self.again, self.rough = (np.zeros(n, dtype=bool) for _ in range(4))
         self.moved, self.size, self.sizes = (np.zeros(n) for _ in range(3))
-        self.defect, self.tangents = np.zeros((n, 4)), np.zeros((n, 32))
+        self.defect, self.bent, self.felt = (np.zeros((n, 4)) for _ in range(3))
+        self.tangents = np.zeros((n, 32))
         self.rates, self.next = np.zeros((n, WIDTH)), np.zeros((n, WIDTH))
         self.numbers, self.spans = np.zeros(n, dtype=np.intp), np.zeros((2, n))
 
@@ -83,6 +94,8 @@ class Multirate:
     _room: _Room | None = field(default=None, init=False)
     _taken: bool = field(default=False, init=False)
     """Whether the last step was taken, so that what is next counts if it is not refused."""
+    _parts: int = field(default=1, init=False)
+    """Steps of the rotor to the next step."""
     _known: bool = field(default=False, init=False)
     """Whether anything is known of the bearings."""
     _before: float = field(default=0.0, init=False)
@@ -96,7 +109,7 @@ class Multirate:
             return {}
         rates = self._room.next if self._taken else self._room.rates
         named = {name: rates[:, column].copy() for column, name in enumerate(KNOWN)}
-        return named | {"tangents": rates[:, BEFORE:].copy()}
+        return named | {"tangents": rates[:, BEFORE:].copy(), "parts": np.array(self._parts)}
 
     @memory.setter
     def memory(self, arrays: dict[str, NDArray[Any]]) -> None:
@@ -106,6 +119,7 @@ class Multirate:
             columns = [arrays[name] for name in KNOWN]
             room.rates[:] = np.column_stack([*columns, arrays["tangents"]])
             self._reached = self._before = float(room.rates[:, STANDS].max())
+            self._parts = int(arrays["parts"])
 
     def refuse(self) -> None:
         """Go back to the intervals before the step; what was above the tolerance is due in its repetition."""
@@ -130,13 +144,14 @@ class Multirate:
             time, step, bends, rates, wrenches, tangents, where, system.laws, room.changed, room.numbers
         )
         system.tell_laws(room.numbers[:count].tolist())
-        system.rotor_group.step(time, step)
+        part = step / self._parts
+        for k in range(self._parts):
+            system.rotor_group.step(time + k * part, part)
         system.rotor_group.fetch()
         motion, own = system.motion, OWN * self.tolerance
-        standing = rates, tangents, where, motion, system.levers, room.again
-        count = find_due(
-            time, step, own, common, *standing, moved, due, room.tangents, room.numbers, room.spans
-        )
+        standing = rates, tangents, where, motion, system.levers, room.again, system.laws
+        seen = moved, due, room.tangents, room.bent, room.numbers, room.spans
+        count = find_due(time, step, own, common, *standing, *seen)
         system.bearing_group.carry(*room.orders(count))
         largest, answered = settle(
             time,
@@ -154,12 +169,15 @@ class Multirate:
             room.again,
             moved,
             due,
+            room.bent,
             room.defect,
+            room.felt,
             room.size,
             room.sizes,
             room.rough,
             room.next,
         )
+        self._parts = PARTS if (room.sizes[due] > STRAIGHT * self.tolerance).any() else 1
         self._taken, self._before, self._reached = True, time, end
         return Advance(1, room.defect, None, due.copy(), Errors(largest, answered))
 

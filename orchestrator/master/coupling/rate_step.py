@@ -5,13 +5,24 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.kernels.loops import compiled, copy
-from orchestrator.master.coupling.rates import STANDS, due_at, intervals_after, measure, relative
+from fmus.kernels.loops import compiled, copy, inlined
+from orchestrator.master.coupling.rates import FELT, STANDS, due_at, intervals_after, measure, relative
 from orchestrator.master.interface import defects
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Numbers = NDArray[np.intp]
+
+
+@inlined
+def _bent(law: Array, tangent: Array, where: Array, motion: Array, bent: Array) -> None:
+    for i in range(4):
+        total = 0.0
+        for part in range(2):
+            for j in range(4):
+                k, at = 16 * part + 4 * i + j, 4 * part + j
+                total += (law[4 + k] - tangent[k]) * (motion[at] - where[at])
+        bent[i] = total
 
 
 @compiled
@@ -26,9 +37,11 @@ def find_due(
     motion: Array,
     levers: Array,
     again: Mask,
+    laws: Array,
     moved: Array,
     due: Mask,
     before: Array,
+    bent: Array,
     numbers: Numbers,
     spans: Array,
 ) -> int:
@@ -38,8 +51,12 @@ def find_due(
     ----------
     time, step : float
         Start and length of the step in s.
+    laws : ndarray (n, 36)
+        That moved the rotor.
     before : ndarray (n, 32)
         Overwritten with the tangents, which evaluations then change.
+    bent : ndarray (n, 4)
+        Overwritten with what tangents make of the motion since then beyond what the laws do.
     numbers, spans : ndarray of int (n,), ndarray (2, n)
         The first overwritten with numbers of those that are due, where they stand, and how far they go.
     others
@@ -49,6 +66,7 @@ def find_due(
     due_at(end, tolerance, all_of_them, rates, tangents, where, motion, levers, again, moved, due)
     for b in range(len(due)):
         copy(tangents[b], before[b])
+        _bent(laws[b], tangents[b], where[b], motion[b], bent[b])
     count = 0
     for b in range(len(due)):
         if due[b]:
@@ -76,7 +94,9 @@ def settle(
     again: Mask,
     moved: Array,
     due: Mask,
+    bent: Array,
     defect: Array,
+    felt: Array,
     size: Array,
     sizes: Array,
     rough: Mask,
@@ -90,6 +110,10 @@ def settle(
         Of the step in s.
     tolerance, own : float
         Largest relative defect of a step, and of an interval.
+    bent : ndarray (n, 4)
+        From `find_due`.
+    felt : ndarray (n, 4)
+        Overwritten with the sizes of defects, or `FELT` of those of the tangents where these are larger.
     others
         As above, and as `interface.defects`, `rates.relative` and `rates.intervals_after` take them.
 
@@ -101,8 +125,11 @@ def settle(
     defects(laws, motion, forces, defect)
     for b in range(len(due)):
         if not due[b]:
-            defect[b] = 0.0
+            defect[b] = felt[b] = 0.0
+            continue
+        for i in range(4):
+            felt[b, i] = max(abs(defect[b, i]), FELT * abs(defect[b, i] - bent[b, i]))
     measure(forces, loads, faded, rates, size)
-    found = relative(start, tolerance, defect, levers, size, rates, again, sizes, rough)
+    found = relative(start, tolerance, felt, levers, size, rates, again, sizes, rough)
     intervals_after(end, own, rates, before, due, moved, sizes, size, after)
     return found
