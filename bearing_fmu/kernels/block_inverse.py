@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from bearing_fmu.kernels.compiled import inner_kernel
 from bearing_fmu.kernels.copied import copy
+from bearing_fmu.kernels.cyclic_solver import eliminate
 from bearing_fmu.kernels.vector import (
     LANES,
     TILE,
@@ -111,16 +112,7 @@ def invert(s: Floats, at: int, n: int, width: int, factor: Floats, kept: Floats)
         if best != pivot:
             for k in range(n):
                 s[row + k], s[at + best * width + k] = s[at + best * width + k], s[row + k]
-        for j in range(n):
-            factor[j] = s[at + j * width + pivot]
-            s[at + j * width + pivot] = 0.0
-        factor[pivot] = 1.0 / factor[pivot]
-        s[row + pivot] = 1.0
-        for k in range(0, width, LANES):
-            set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
-            for j in range(n):
-                if j != pivot:
-                    subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
+        eliminate(s, at, n, width, pivot, factor)
     for pivot in range(n - 1, -1, -1):
         best = int(order[pivot])
         if best != pivot:

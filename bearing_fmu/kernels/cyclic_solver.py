@@ -23,23 +23,28 @@ Floats = NDArray[np.float64]
 
 
 @inner_kernel
+def eliminate(s: Floats, at: int, n: int, width: int, pivot: int, factor: Floats) -> None:
+    """Take a pivot's step of the inversion of the block at `at` in place, by Gauss and Jordan's method."""
+    row = at + pivot * width
+    for j in range(n):
+        factor[j] = s[at + j * width + pivot]
+        s[at + j * width + pivot] = 0.0
+    factor[pivot] = 1.0 / factor[pivot]
+    s[row + pivot] = 1.0
+    for k in range(0, width, LANES):
+        set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
+        for j in range(n):
+            if j != pivot:
+                subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
+
+
+@inner_kernel
 def invert(s: Floats, at: int, n: int, width: int, factor: Floats) -> bool:
     """Invert the symmetric positive definite block at `at` in place; False if it is not definite."""
     for pivot in range(n):
-        row = at + pivot * width
-        diagonal = s[row + pivot]
-        if not diagonal > 0.0:
+        if not s[at + pivot * (width + 1)] > 0.0:
             return False
-        for j in range(n):
-            factor[j] = s[at + j * width + pivot]
-            s[at + j * width + pivot] = 0.0
-        factor[pivot] = 1.0 / diagonal
-        s[row + pivot] = 1.0
-        for k in range(0, width, LANES):
-            set_rows(s, row + k, factor, pivot, 0, s, row + k, 0, 1)
-            for j in range(n):
-                if j != pivot:
-                    subtract_rows(s, at + j * width + k, factor, j, 0, s, row + k, 0, 1)
+        eliminate(s, at, n, width, pivot, factor)
     return True
 
 
