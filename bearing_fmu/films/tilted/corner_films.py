@@ -1,7 +1,8 @@
 """The films of one bearing at depth V1: the usual one, and those of the corners of accuracy.
 
 What comes to a kernel from Python costs time, an array a five hundredth of an evaluation.  So the films of
-the corners come in one array, and are put together where they are needed.
+the corners come in one array, and are put together where they are needed.  Bearings of one resolution share
+that array with their work space; but for the axial stiffness it is the same for all of them.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ USUAL, SPREAD_OUT, TURNED, SHARP, GRIDS = range(5)
 #: Least columns and rows of those beside the usual one; 0 for those of the latter.
 CORNERS = {SPREAD_OUT: (64, 0), TURNED: (64, 10), SHARP: (64, 12)}
 _SHARP_CLUSTERING = 2.0
+_STORE = "corners"  #: in a work space
 #: Columns of `TiltedFilms.shares`: share of each film, its change by q and v, where the film stands in the
 #: store, -1 for the usual one, its columns and rows, and its result.
 SHARE, CHANGE, PLACE, COLUMNS, ROWS, RESULT = 0, 1, 9, 10, 11, 12
@@ -36,16 +38,17 @@ class TiltedFilms(NamedTuple):
 
     usual: TiltedFilm
     store: Floats  #: the others, see `film_in`
+    stiffness: Floats  #: (GRIDS, n + 2 and more) of each of them, see `TiltedFilm`
     shares: Floats  #: (GRIDS + 1, RESULT + RESULTS) of each; the last row begins with the film solved last
 
 
 @stage
-def film_in(store: Floats, at: int, m: int, n: int) -> TiltedFilm:
+def film_in(store: Floats, stiffness: Floats, at: int, m: int, n: int) -> TiltedFilm:
     """The film of m columns and n rows that stands in a store from `at` on, field after field."""
     length, width = LANES * -(-m // LANES), LANES * -(-n // LANES)
     nodes, at = line(store, at, n + 2)
     weights, at = line(store, at, n + 2)
-    stiffness, at = line(store, at, n + 2)
+    _, at = line(store, at, n + 2)
     slopes, at = line(store, at, (n + 2) * n)
     products, at = line(store, at, (n + 2) * n * width)
     fine, at = plane(store, at, 4 * n, n)
@@ -72,7 +75,7 @@ def film_in(store: Floats, at: int, m: int, n: int) -> TiltedFilm:
     return TiltedFilm(
         nodes,
         weights,
-        stiffness,
+        stiffness[: n + 2],
         slopes,
         products,
         fine,
@@ -104,22 +107,28 @@ def tilted_films(
 ) -> TiltedFilms:
     """Prepare the films of a bearing, see `tilted_film`; without `corners` the usual one is all of them."""
     shares, parts, at = np.zeros((GRIDS + 1, RESULT + RESULTS)), [np.zeros(0)], 0
+    stiffness = np.zeros((GRIDS, max(rows, *(least for _, least in CORNERS.values())) + 2))
     shares[:GRIDS, PLACE] = -1.0
     for film, (least_columns, least_rows) in CORNERS.items():
         grid = max(columns, least_columns), max(rows, least_rows)
         if not corners or grid == (columns, rows) or (film == SHARP and grid[1] == rows):
             continue
         clustering = (_SHARP_CLUSTERING,) if film == SHARP else ()
-        parts.append(put_away(tilted_film(*grid, aspect, work_space(*grid), *clustering)))
+        corner = tilted_film(*grid, aspect, work_space(*grid), *clustering)
+        parts.append(put_away(corner))
+        stiffness[film, : grid[1] + 2] = corner.stiffness
         shares[film, PLACE:RESULT] = at, *grid
         at += parts[-1].size
     usual = tilted_film(columns, rows, aspect, space)
-    return TiltedFilms(usual, np.concatenate(parts), shares)
+    store = space.setdefault(_STORE, np.concatenate(parts)) if corners else parts[0]
+    return TiltedFilms(usual, store, stiffness, shares)
 
 
 def served(films: TiltedFilms) -> TiltedFilm:
     """The film that was solved last."""
-    at, columns, rows = (int(number) for number in films.shares[int(films.shares[GRIDS, 0]), PLACE:RESULT])
+    grid = int(films.shares[GRIDS, 0])
+    at, columns, rows = (int(number) for number in films.shares[grid, PLACE:RESULT])
     if at < 0:
         return films.usual
-    return TiltedFilm(*views(films.store, at, tilted_film(columns, rows, 1.0, work_space(columns, rows))))
+    film = TiltedFilm(*views(films.store, at, tilted_film(columns, rows, 1.0, work_space(columns, rows))))
+    return film._replace(stiffness=films.stiffness[grid, : rows + 2])

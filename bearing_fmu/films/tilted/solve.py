@@ -128,7 +128,8 @@ def solve_tilted(
         if at < 0:
             status = solve_one(films.usual, bore, scales, q, v, speed, part, grid, found)
         else:
-            film = film_in(films.store, at, int(shares[grid, COLUMNS]), int(shares[grid, ROWS]))
+            m, n = int(shares[grid, COLUMNS]), int(shares[grid, ROWS])
+            film = film_in(films.store, films.stiffness[grid], at, m, n)
             status = solve_one(film, bore, scales, q, v, speed, part, grid, found)
         if grid == SHARP:
             if status != OK:  # the peak of the usual grid is an answer, too

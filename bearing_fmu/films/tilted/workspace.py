@@ -109,5 +109,5 @@ def tilted_film(
         back=back,
         circle=circle,
         held=np.zeros((rows, padded(columns))),
-        **space,
+        **{name: array for name, array in space.items() if name in TiltedFilm._fields},
     )
