@@ -239,9 +239,12 @@ def _train_path(train: str, folder: Path) -> str | Path:
 def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Merge overrides into what a file says, table by table; None takes a key out.
 
-    A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.
+    A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.  A step
+    alone is fixed, which a coupling of many rates has none of: the usual coupling is taken then.
     """
     fixed = {} if overrides.keys().isdisjoint(("step", "coupling")) else {"tolerance": None}
+    if "step" in overrides and "tolerance" not in overrides and raw.get("coupling") == "multirate":
+        fixed["coupling"] = None
     return _merged(_one_form(raw, overrides), {**fixed, **overrides})
 
 

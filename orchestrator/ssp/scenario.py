@@ -61,7 +61,9 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
             )
     structure, train = contents.structure, contents.train
     usual = "linear-implicit" if contents.wiring is Wiring.LAW else "gauss-seidel"
-    coupling = overrides.get("coupling") or structure.coupling or usual
+    own = {"coupling": structure.coupling, "tolerance": structure.tolerance}
+    own = replaced({key: value for key, value in own.items() if value is not None}, overrides)
+    coupling = own.get("coupling") or usual
     if coupling not in SCHEMES or SCHEMES[coupling].wiring is not contents.wiring:
         allowed = [name for name, scheme in SCHEMES.items() if scheme.wiring is contents.wiring]
         raise SspError(
@@ -69,7 +71,6 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
             f"allowed is {' or '.join(allowed)}"
         )
     end = overrides.get("end") or structure.end or DEFAULT_END
-    own = {} if structure.tolerance is None else {"tolerance": structure.tolerance}
     first = contents.bearings[0]
     found = {
         seat.name: _depth(contents.files[c.name])
@@ -93,7 +94,7 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
         "end": end,
         "step": overrides.get("step") or structure.step or DEFAULT_STEP,
         "coupling": coupling,
-        "tolerance": replaced(own, overrides).get("tolerance"),
+        "tolerance": own.get("tolerance"),
         "ledger": bool(overrides.get("ledger", False)),
         "film": film,
         "record": {} if structure.record_interval is None else {"interval": structure.record_interval},

@@ -146,11 +146,23 @@ def test_overrides_merge_key_by_key_and_take_out(scenario_file):
 
 
 def test_a_tolerance_belongs_to_the_step_and_coupling_beside_it():
-    assert load_scenario("paper").tolerance == load_scenario("paper", {"end": 1.5}).tolerance == 0.02
-    for change in ({"step": 5e-5}, {"coupling": "gauss-seidel"}):
-        assert load_scenario("paper", change).tolerance is None
-        assert with_overrides(load_scenario("paper"), change).tolerance is None
-        assert load_scenario("paper", {**change, "tolerance": 1e-3}).tolerance == 1e-3
+    for name, tolerance in (("paper", 0.01), ("inertia", 0.02)):
+        assert load_scenario(name).tolerance == load_scenario(name, {"end": 1.5}).tolerance == tolerance
+        for change in ({"step": 5e-5}, {"coupling": "gauss-seidel"}):
+            assert load_scenario(name, change).tolerance is None
+            assert with_overrides(load_scenario(name), change).tolerance is None
+            assert load_scenario(name, {**change, "tolerance": 1e-3}).tolerance == 1e-3
+
+
+def test_a_step_alone_is_fixed_where_a_coupling_of_many_rates_would_have_none():
+    assert load_scenario("paper").coupling == "multirate"
+    for change in ({"step": 5e-5}, {"step": 5e-5, "end": 1.5}):
+        for scenario in (load_scenario("paper", change), with_overrides(load_scenario("paper"), change)):
+            assert (scenario.coupling, scenario.tolerance) == ("linear-implicit", None)
+    controlled = load_scenario("paper", {"step": 5e-5, "tolerance": 5e-3})
+    assert (controlled.coupling, controlled.tolerance) == ("multirate", 5e-3)
+    asked_for = load_scenario("paper", {"step": 5e-5, "coupling": "multirate"})
+    assert (asked_for.coupling, asked_for.tolerance) == ("multirate", None)
 
 
 def test_a_train_is_found_beside_the_scenario(tmp_path, scenario_file):
