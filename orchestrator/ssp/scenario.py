@@ -61,8 +61,8 @@ def as_scenario(contents: Contents, overrides: Mapping[str, Any], path: Path) ->
             )
     structure, train = contents.structure, contents.train
     usual = "linear-implicit" if contents.wiring is Wiring.LAW else "gauss-seidel"
-    own = {"coupling": structure.coupling, "tolerance": structure.tolerance}
-    own = replaced({key: value for key, value in own.items() if value is not None}, overrides)
+    said = {"coupling": structure.coupling, "tolerance": structure.tolerance}
+    own = replaced({key: value for key, value in said.items() if value is not None}, overrides)
     coupling = own.get("coupling") or usual
     if coupling not in SCHEMES or SCHEMES[coupling].wiring is not contents.wiring:
         allowed = [name for name, scheme in SCHEMES.items() if scheme.wiring is contents.wiring]
