@@ -74,6 +74,9 @@ class RotorSlave(UnitSlave):
         for j, wheel in enumerate(train.wheels, 1):
             self.values[self.layout[f"wheel[{j}].z"]] = train.z[wheel.node]
         self.values[self.layout.block("node[1].z", f"node[{train.nodes}].z")] = train.z
+        self._parts = int(self._value(port.PARTS))
+        if self._parts < 1:
+            raise UnitError(f"{port.PARTS} = {self._parts}, allowed is >= 1")
         self._drive = Drive(
             course=course_of(self.strings[self.layout[port.COURSE]]),
             inertia=self._value("drive.inertia"),
@@ -152,16 +155,34 @@ class RotorSlave(UnitSlave):
         )
 
     def advance(self, time: float, step: float) -> None:
-        """Step the shaft under the laws at the inputs."""
+        """Step the shaft under the laws at the inputs, in as many equal parts as are asked for."""
+        rotor = self._rotor
+        rotor.unbalance.lose(int(self._lost[0]))
+        free, _ = self._braking()
+        if free or not rotor.go(time, step, *self._law, self._speed_by(time + step, 1.0), self._parts):
+            before, part = rotor.get_state(), step / self._parts
+            try:
+                for k in range(self._parts):
+                    self._advance_part(time + k * part, part, 1.0 / (self._parts - k))
+            except Exception:
+                rotor.set_state(before)
+                raise
+        self._show()
+
+    def _advance_part(self, time: float, step: float, share: float) -> None:
+        """Step the shaft over a part, which has this share of what is left of the step."""
         free, now = self._braking()
-        self._rotor.unbalance.lose(int(self._lost[0]))
         if free:
             self._rotor.freely(time, step, *self._law, now)
         else:
-            drive = self._drive
-            speed = drive.on_course(time + step) if drive.course else float(self.inputs[0])
-            self._rotor.step(time, step, *self._law, speed, now)
-        self._show()
+            self._rotor.step(time, step, *self._law, self._speed_by(time + step, share), now)
+
+    def _speed_by(self, end: float, share: float) -> float:
+        """Speed at an instant: that of the course, or this share of the way to that at the input."""
+        if self._drive.course:
+            return self._drive.on_course(end)
+        given, now = float(self.inputs[0]), self._rotor.speed
+        return given if share == 1.0 else now + share * (given - now)
 
     def observe(self, group: str) -> None:
         """Write extremes over the shaft, wrenches on the foundation, energies, works, or the fields."""

@@ -80,7 +80,7 @@ from fmus.port.linear_bearing import (
     rows_of_values,
 )
 from fmus.port.oil import GRADES, USUAL_INDEX, Oil, viscosity_index
-from fmus.port.rotor_variables import at_bearing, rotor
+from fmus.port.rotor_variables import PARTS, at_bearing, rotor
 from fmus.port.variable import UNITS, Causality, Kind, Unit, Value, Variability, Variable, with_starts
 
 __all__ = [
@@ -110,6 +110,7 @@ __all__ = [
     "LOST",
     "MOST_PADS",
     "NOMINAL_SPEED",
+    "PARTS",
     "POSITION",
     "RELEASED",
     "ROTATION",

@@ -30,6 +30,9 @@ def at_bearing(index: int, name: str) -> str:
     return f"bearing[{index}].{name}"
 
 
+PARTS = "parts"
+"""Parameter that says in how many equal parts the rotor goes each step."""
+
 _ROTOR_PARAMETERS: tuple[Variable, ...] = (
     Variable(
         "gravity",
@@ -68,6 +71,15 @@ _ROTOR_PARAMETERS: tuple[Variable, ...] = (
         kind="Boolean",
     ),
     Variable("fracture.time", "parameter", "s", "instant of the blade fracture", 1.0, nominal=1.0),
+    Variable(
+        PARTS,
+        "parameter",
+        "",
+        "equal parts in which a step is taken under one law; within each of them wrenches run straight",
+        1,
+        minimum=1,
+        kind="Integer",
+    ),
     TRACK_WORK,
 )
 _SUMMARY = (

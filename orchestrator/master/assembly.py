@@ -209,15 +209,19 @@ def join(parts: Iterable[Part], scenario: Scenario, speed: float, place: Path, t
         for part in parts:
             units.append(Unit(part.file, part.name, release_gil=bool(units) and threads > 1))
             parameters.append(part.parameters)
-        system = System(units[0], units[1:], SCHEMES[scenario.coupling].wiring, turning=scenario.turns)
+        scheme = SCHEMES[scenario.coupling]
+        own = scheme.parts if port.PARTS in units[0].file.variables else 1
+        system = System(units[0], units[1:], scheme.wiring, turning=scenario.turns, parts=own)
         system.bearing_group.employ(threads)
-        halved = scenario.tolerance is not None or SCHEMES[scenario.coupling].many_rates
+        halved = scenario.tolerance is not None or scheme.many_rates
         for event in scenario.events:
             if isinstance(event, Change):
                 _check_change(event, next(unit for unit in units if unit.name == event.bearing))
         for unit, values in zip(units, parameters, strict=True):
             unit.file.check_steps(scenario.step, scenario.end, halved)
             unit.set_parameters(values)
+        if own > 1:
+            units[0].set_parameters({port.PARTS: own})
         system.set_speed(speed)
         for unit in units:
             unit.enter_initialization(0.0, scenario.end)

@@ -50,6 +50,8 @@ class System:
         What the bearings give the rotor.
     turning : bool
         Whether the rotor tells the bearings its speed, and they it their friction; else all are told.
+    parts : int
+        Equal parts in which the rotor goes each step by itself, as it was told.
 
     Raises
     ------
@@ -76,15 +78,21 @@ class System:
         The way back to the start of a step.
     loads, levers : ndarray (bearings,)
         See `set_scale`.
-    turning : bool
+    turning, parts : bool, int
         As given.
     """
 
     def __init__(
-        self, rotor: Unit, bearings: Sequence[Unit], wiring: Wiring = Wiring.LAW, *, turning: bool = False
+        self,
+        rotor: Unit,
+        bearings: Sequence[Unit],
+        wiring: Wiring = Wiring.LAW,
+        *,
+        turning: bool = False,
+        parts: int = 1,
     ) -> None:
         n = len(bearings)
-        self.turning = turning
+        self.turning, self.parts = turning, parts
         check_port(rotor, bearings, turning=turning)
         self.rotor = rotor
         self.bearings = tuple(bearings)
@@ -201,6 +209,20 @@ class System:
             self._friction[:] = self.responses[:, RESPONSE[port.FRICTION_POWER]]
             self._turning.set()
         self.rotor_group.exchange_time += perf_counter() - start
+
+    def carry_rotor(self, time: float, step: float, parts: int) -> None:
+        """Carry the rotor over a macro step in equal parts, if it does not go in them itself, and read it.
+
+        Raises
+        ------
+        UnitError
+            As `Group.step`.
+        """
+        steps = parts if self.parts == 1 else 1
+        part = step / steps
+        for k in range(steps):
+            self.rotor_group.step(time + k * part, part)
+        self.rotor_group.fetch()
 
     def stands_at(self) -> Array:
         """Return the motion of each journal in its housing where its bearing stands, (bearings, 8)."""

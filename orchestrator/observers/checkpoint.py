@@ -29,7 +29,7 @@ from orchestrator.whole_file import whole_file
 Arrays = dict[str, NDArray[Any]]
 
 FILE = "checkpoint.npz"
-VERSION = 6
+VERSION = 7
 
 
 class Keeper(Protocol):

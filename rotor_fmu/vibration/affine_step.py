@@ -24,14 +24,14 @@ steps several times as long as 2 sqrt(3 m / k) may still be upset, and the defec
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor_fmu.shaft.condensation import Equilibrium
 from rotor_fmu.vibration.coordinates import Coordinates, Maps
-from rotor_fmu.vibration.law_loops import begin, end_wrenches, mix, react
+from rotor_fmu.vibration.law_loops import begin, end_wrenches, factorise, mix, react
 from rotor_fmu.vibration.trail import Extrapolation, Trail
 from rotor_fmu.vibration.whirl_coordinates import WhirlMaps
 from rotor_fmu.vibration.whirl_loops import MIXED, UNSOLVED
@@ -83,8 +83,15 @@ class AffineStep:
         self._matrix, self._sizes = np.zeros((loads, loads)), np.zeros((bearings + 1, bearings))
         self._start, self._end, self._nearer = np.zeros(loads), np.zeros(loads), np.zeros(loads)
         self._moves = np.zeros((bearings, 8, loads))
-        memory = self._matrix, self._sizes, self._start, self._end, self._nearer, self._moves
-        self._of_whirl: tuple[Array, ...] = self._law, *memory, self._offset.reshape(-1)
+        self._pivots = np.zeros(loads, dtype=np.intp)
+        wrenches = self._sizes, self._start, self._end, self._nearer, self._moves
+        self._of_whirl: tuple[Any, ...] = (
+            self._law,
+            self._matrix,
+            self._pivots,
+            *wrenches,
+            self._offset.reshape(-1),
+        )
 
     def set_law(self, K: Array, C: Array) -> None:
         """Take stiffness and damping of the bearings, (n_b, 4, 4) each, for the steps to come."""
@@ -167,14 +174,7 @@ class AffineStep:
         """
         np.subtract(F0, static.bearing_wrenches, out=self._offset)
         if isinstance(maps, WhirlMaps) and beyond is None:  # in one compiled loop
-            kick = maps.no_kick if kick is None else kick
-            end, where = np.empty(motion.shape), np.empty(journals.shape)
-            about = static.journals_at_rest, rotation, kick, motion, journals, end, where
-            given: tuple[Array, ...] = *maps.of_step, *self._of_whirl, *about
-            done = whirl_step(*given)
-            if done == UNSOLVED:
-                raise NoFiniteResult(_NOT_FINITE)
-            return Step(end, where, self._nearer.copy() if done == MIXED else None, None)
+            return self._whirl(maps, motion, journals, rotation[None], kick, static)
         offset = self._offset.reshape(-1)
         matrix, start, compliance = self._matrix, self._start, maps.compliance
         own = compliance.own, compliance.mixed
@@ -197,7 +197,8 @@ class AffineStep:
             moves = moves.copy()
             moves[:, 4:] += beyond.compliance(share).reshape(moves[:, 4:].shape)
         wrench = self._end
-        solved = end_wrenches(self._law, offset, moves, matrix, journals, wrench)
+        solved = factorise(self._law, moves, matrix, self._pivots)
+        end_wrenches(self._law, offset, moves, matrix, self._pivots, journals, wrench)
         if not mixes:
             maps.add_end(wrench, end)
         else:
@@ -208,6 +209,55 @@ class AffineStep:
             raise NoFiniteResult(_NOT_FINITE)
         trail = None if beyond is None else beyond.trail(share * (wrench - start))
         return Step(end, journals, nearer.copy() if mixes else None, trail)
+
+    def advance_whirl(
+        self,
+        maps: WhirlMaps,
+        motion: Array,
+        journals: Array,
+        F0: Array,
+        rotations: Array,
+        static: Equilibrium[np.float64],
+    ) -> Step:
+        """Take steps of one length under the law last set, in one go; 1 + L S is solved for all at once.
+
+        Parameters
+        ----------
+        rotations : ndarray, (steps, 4)
+            Of each, otherwise as `advance` takes it.
+        others
+            As `advance` takes them.
+
+        Returns
+        -------
+        Step
+            What all lead to.
+
+        Raises
+        ------
+        NoFiniteResult
+            As `advance`.
+        """
+        np.subtract(F0, static.bearing_wrenches, out=self._offset)
+        return self._whirl(maps, motion, journals, rotations, None, static)
+
+    def _whirl(
+        self,
+        maps: WhirlMaps,
+        motion: Array,
+        journals: Array,
+        rotations: Array,
+        kick: Array | None,
+        static: Equilibrium[np.float64],
+    ) -> Step:
+        kick = maps.no_kick if kick is None else kick
+        end, where = np.empty(motion.shape), np.empty(journals.shape)
+        about = static.journals_at_rest, rotations, kick, motion, journals, end, where
+        given: tuple[Any, ...] = *maps.of_step, *self._of_whirl, *about
+        done = whirl_step(*given)
+        if done == UNSOLVED:
+            raise NoFiniteResult(_NOT_FINITE)
+        return Step(end, where, self._nearer.copy() if done == MIXED else None, None)
 
     def _reacting(self, offset: Array, journals: Array) -> Array:
         """Wrenches under the law: an offset less what stiffness and damping take off it."""

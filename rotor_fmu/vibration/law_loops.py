@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fmus.kernels.loops import fused, inlined
 
 Array = NDArray[np.float64]
+Pivots = NDArray[np.intp]
 
 _TINY = float(np.finfo(np.float64).tiny)
 
@@ -121,31 +122,25 @@ def mix(of_start: Array, of_end: Array, nearer: Array, moves: Array) -> None:
 
 
 @fused
-def end_wrenches(
-    law: Array, offset: Array, moves: Array, matrix: Array, journals: Array, wrench: Array
-) -> bool:
-    """Overwrite wrenches with those that a law has with what they do themselves.
+def factorise(law: Array, moves: Array, matrix: Array, pivots: Pivots) -> bool:
+    """Overwrite a matrix with the factors of 1 + L S, which all steps of one length under a law share.
 
     Parameters
     ----------
-    law, offset
+    law
         As above.
     moves : ndarray, (n, 8, 4 n)
-        What wrenches at the end move the journals by.
-    matrix : ndarray, (4 n, 4 n)
-        Memory.
-    journals : ndarray
-        At the end of the step without those wrenches; overwritten with them.
-    wrench : ndarray
-        Overwritten.
+        S, what wrenches at the end move the journals by.
+    matrix, pivots : ndarray, (4 n, 4 n), ndarray of int, (4 n,)
+        Overwritten with factors, the lower one less its diagonal of 1, and with the row that each was
+        exchanged with.
 
     Returns
     -------
     bool
-        False if there is no solution.
+        False if there are none.
     """
-    size = len(offset)
-    _react(law, offset, journals, wrench)
+    size = len(matrix)
     for b in range(len(law)):
         move = moves[b]
         for i in range(4):
@@ -155,45 +150,62 @@ def end_wrenches(
                     f[4] * move[4, c] + f[5] * move[5, c] + f[6] * move[6, c] + f[7] * move[7, c]
                 )
             row[4 * b + i] += 1.0
-    if not _solved(matrix, wrench):
-        return False
-    for b in range(len(law)):
-        for j in range(8):
-            for c in range(size):
-                journals[b, j] += moves[b, j, c] * wrench[c]
-    return True
-
-
-@inlined
-def _solved(matrix: Array, right: Array) -> bool:
-    """Overwrite a right side with the solution, and the matrix; Gauss's elimination with row pivots.
-
-    False where a pivot is 0.
-    """
-    size = len(right)
     for k in range(size):
         pivot = k
         for row in range(k + 1, size):
             if abs(matrix[row, k]) > abs(matrix[pivot, k]):
                 pivot = row
+        pivots[k] = pivot
         if matrix[pivot, k] == 0.0:
             return False
         if pivot != k:
             for c in range(size):
                 matrix[k, c], matrix[pivot, c] = matrix[pivot, c], matrix[k, c]
-            right[k], right[pivot] = right[pivot], right[k]
         last = matrix[k, k + 1 :]
         for row in range(k + 1, size):
             factor = matrix[row, k] / matrix[k, k]
-            right[row] -= factor * right[k]
+            matrix[row, k] = factor
             rest = matrix[row, k + 1 :]
             for c in range(len(rest)):
                 rest[c] -= factor * last[c]
-    for k in range(size - 1, -1, -1):
-        for c in range(k + 1, size):
-            right[k] -= matrix[k, c] * right[c]
-        right[k] /= matrix[k, k]
     return True
+
+
+@fused
+def end_wrenches(
+    law: Array, offset: Array, moves: Array, matrix: Array, pivots: Pivots, journals: Array, wrench: Array
+) -> None:
+    """Overwrite wrenches with those that a law has with what they do themselves.
+
+    Parameters
+    ----------
+    law, offset
+        As above.
+    moves, matrix, pivots
+        As of `factorise`.
+    journals : ndarray
+        At the end of the step without those wrenches; overwritten with them.
+    wrench : ndarray
+        Overwritten.
+    """
+    size = len(offset)
+    _react(law, offset, journals, wrench)
+    for k in range(size):
+        wrench[k], wrench[pivots[k]] = wrench[pivots[k]], wrench[k]
+    for k in range(1, size):
+        total = 0.0
+        for c in range(k):
+            total += matrix[k, c] * wrench[c]
+        wrench[k] -= total
+    for k in range(size - 1, -1, -1):
+        total = 0.0
+        for c in range(k + 1, size):
+            total += matrix[k, c] * wrench[c]
+        wrench[k] = (wrench[k] - total) / matrix[k, k]
+    for b in range(len(law)):
+        for j in range(8):
+            for c in range(size):
+                journals[b, j] += moves[b, j, c] * wrench[c]
 
 
 def compile_now() -> None:
@@ -204,4 +216,6 @@ def compile_now() -> None:
     begin(
         law, wrench, journals, np.zeros((1, 4, 4)), square, square, np.zeros((2, 1)), np.zeros(4), np.zeros(4)
     )
-    end_wrenches(law, wrench, moves, square, journals, np.zeros(4))
+    pivots = np.zeros(4, dtype=np.intp)
+    factorise(law, moves, square, pivots)
+    end_wrenches(law, wrench, moves, square, pivots, journals, np.zeros(4))

@@ -20,6 +20,7 @@ from rotor_fmu.vibration.state import RotorState
 from rotor_fmu.vibration.trail import Extrapolation
 from rotor_fmu.vibration.turning import DetunedMaps, Turning
 from rotor_fmu.vibration.unbalance import Unbalance, losses_of
+from rotor_fmu.vibration.whirl_coordinates import WhirlMaps
 from rotor_fmu.vibration.work import Work, WorkLedger
 
 Array = NDArray[np.float64]
@@ -141,6 +142,49 @@ class Rotor(RotorMotion):
         along = self._spin.along(t + 0.5 * H, self.seen())
         speed = self._spin.speed_after((state.angle, self.speed), H, along, now, state.owed)
         self.step(t, H, F0, K, C, speed, now, free=True)
+
+    def go(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float, parts: int = 1) -> bool:
+        """Take a macro step in equal parts in one go, each as `step` takes one, in a third of the time.
+
+        That is where nothing but the laws and the unbalances acts on a circular shaft at constant speed.
+        Elsewhere nothing is done.
+
+        Parameters
+        ----------
+        parts : int
+            Within each, wrenches run straight.
+        others
+            As for `step`.
+
+        Returns
+        -------
+        bool
+            Whether the step was taken.
+
+        Raises
+        ------
+        NoFiniteResult
+            As `step`.
+        """
+        state, part = self._state, H / parts
+        if not speed == self.speed == state.speed or self._ledger or self.shaft.massless is not None:
+            return False
+        if not 0.0 < H < math.inf or any(self.unbalance.inside(t, t + H)):
+            return False
+        maps = self._maps.step(speed, part, t + part)
+        if not isinstance(maps, WhirlMaps):
+            return False
+        angles = [state.angle + speed * (k * part) for k in range(parts)]
+        turned = [self.unbalance.turned(t, complex(math.cos(at), math.sin(at))) for at in angles]
+        self._stepper.set_law(K, C)
+        end, after, nearer, _ = self._stepper.advance_whirl(
+            maps, state.motion, self._journals, F0, np.array(turned), state.static
+        )
+        self.holds_mean = nearer is not None
+        angle = math.fmod(angles[-1] + speed * part, 2.0 * math.pi)
+        where = state.static, state.speed, state.basis
+        self._go_on(RotorState(end, angle, *where, state.work, speed, 0.0, t + H, None, after), None)
+        return True
 
     def step(
         self,

@@ -68,7 +68,8 @@ class WhirlMaps:
     def __post_init__(self) -> None:
         total, seen = np.zeros((2, self.end.shape[2])), np.zeros((2, self.journals.shape[2]))
         maps, moves = (self.block, self.growth, self.start, self.end, self.journals), self.compliance
-        of_step = *maps, moves.start, moves.end, moves.own, moves.mixed, total, seen
+        memory = total, seen, np.zeros(total.size)
+        of_step = *maps, moves.start, moves.end, moves.own, moves.mixed, *memory
         for name, value in (("of_step", of_step), ("no_kick", np.zeros(total.size)), ("_total", total)):
             object.__setattr__(self, name, value)
 

@@ -10,12 +10,13 @@ Numbers are real and imaginary part next to each other.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmus.kernels.loops import fused, inlined
-from rotor_fmu.vibration.law_loops import begin, end_wrenches, mix
+from fmus.kernels.loops import copy, fused, inlined
+from rotor_fmu.vibration.law_loops import Pivots, end_wrenches, factorise, half_shares, mix, react
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -118,8 +119,10 @@ def step(
     mixed: Array,
     total: Array,
     seen: Array,
+    held: Array,
     law: Array,
     matrix: Array,
+    pivots: Pivots,
     sizes: Array,
     first: Array,
     last: Array,
@@ -127,14 +130,14 @@ def step(
     moves: Array,
     offset: Array,
     rest: Array,
-    rotation: Array,
+    rotations: Array,
     kick: Array,
     before: Array,
     where: Array,
     after: Array,
     journals: Array,
 ) -> int:
-    """Take a step as `rotor_fmu.vibration.affine_step.AffineStep.advance` does, in one go.
+    """Take steps of one length under one law as `rotor_fmu.vibration.affine_step.AffineStep` does, in one go.
 
     Parameters
     ----------
@@ -142,20 +145,22 @@ def step(
         As in `whirl_coordinates.WhirlMaps`: block, growth, start, end, journals.
     move_start, move_end, own, mixed
         As in `coordinates.Compliance`: start, end, own, mixed.
-    total, seen : ndarray, (2, s), (2, 4 n)
+    total, seen, held : ndarray, (2, s), (2, 4 n), (2 s,)
         Memory.
     law, offset : ndarray, (n, 4, 8), (4 n,)
         Of the bearings.
-    matrix, sizes, first, last : ndarray, (4 n, 4 n), (n + 1, n), (4 n,), (4 n,)
+    matrix, pivots, sizes : ndarray, (4 n, 4 n), ndarray of int, (4 n,), ndarray, (n + 1, n)
+        Memory.
+    first, last : ndarray, (4 n,)
         Memory.
     nearer : ndarray, (4 n,)
-        Overwritten, see `law_loops.begin`.
+        Overwritten, see `law_loops.half_shares`.
     moves : ndarray, (n, 8, 4 n)
         Memory.
     rest : ndarray, (n, 8)
         The journals in the static equilibrium.
-    rotation : ndarray
-        As in `coast`.
+    rotations : ndarray, (steps, j)
+        Of each as in `coast`.
     kick : ndarray, (2 s,)
         Added to the motion at the end.
     before, where : ndarray, (2 s,), (n, 8)
@@ -163,33 +168,39 @@ def step(
     after, journals
         Those at the end; overwritten.
     """
-    mixes = begin(law, offset, where, own, mixed, matrix, sizes, first, nearer)
-    if mixes:
-        for i in range(len(first)):
-            last[i] = nearer[i] * first[i]
-            first[i] -= last[i]
-    coast(block, growth, of_start, first, rotation, before, total, after)
-    if mixes:
-        add_product(of_end, last, total, after)
-    for r in range(len(after)):
-        after[r] += kick[r]
-    for b in range(len(law)):
-        for j in range(8):
-            journals[b, j] = rest[b, j]
-    add_product(shown, after, seen, journals.reshape(journals.size))
+    mixes = half_shares(law, own, mixed, matrix, sizes, nearer)
     if mixes:
         mix(move_start, move_end, nearer, moves)
-    solved = end_wrenches(law, offset, moves if mixes else move_end, matrix, journals, last)
-    if mixes:
-        for i in range(len(first)):
-            first[i] = nearer[i] * last[i]
-            last[i] -= first[i]
-        add_product(of_start, first, total, after)
-    add_product(of_end, last, total, after)
+    if not factorise(law, moves if mixes else move_end, matrix, pivots):
+        return UNSOLVED
+    copy(before, held)
+    for k in range(len(rotations)):
+        react(law, offset, where if k == 0 else journals, first)
+        if mixes:
+            for i in range(len(first)):
+                last[i] = nearer[i] * first[i]
+                first[i] -= last[i]
+        coast(block, growth, of_start, first, rotations[k], held, total, after)
+        if mixes:
+            add_product(of_end, last, total, after)
+        if k == len(rotations) - 1:
+            for r in range(len(after)):
+                after[r] += kick[r]
+        for b in range(len(law)):
+            copy(rest[b], journals[b])
+        add_product(shown, after, seen, journals.reshape(journals.size))
+        end_wrenches(law, offset, moves if mixes else move_end, matrix, pivots, journals, last)
+        if mixes:
+            for i in range(len(first)):
+                first[i] = nearer[i] * last[i]
+                last[i] -= first[i]
+            add_product(of_start, first, total, after)
+        add_product(of_end, last, total, after)
+        copy(after, held)
     square = 0.0
     for r in range(len(after)):
         square += after[r] * after[r]
-    if not (solved and math.isfinite(square)):
+    if not math.isfinite(square):
         return UNSOLVED
     return MIXED if mixes else LINEAR
 
@@ -201,6 +212,10 @@ def compile_now() -> None:
     coast(matrix, np.zeros(0), np.zeros((2, 2, 1)), pair, np.zeros(1), pair, total, np.zeros(2))
     maps = matrix, np.zeros(0), np.zeros((2, 3, 1)), np.zeros((2, 2, 1)), np.zeros((2, 1, 4))
     move, four, square, where = np.zeros((1, 8, 4)), np.zeros(4), np.zeros((4, 4)), np.zeros((1, 8))
-    memory = total, np.zeros((2, 4)), np.zeros((1, 4, 8)), square, np.zeros((2, 1)), four, four, four, move
-    about = four, where, np.zeros(1), pair, pair, where
-    step(*maps, move, move, np.zeros((1, 4, 4)), square, *memory, *about, np.zeros(2), where)
+    memory = total, np.zeros((2, 4)), np.zeros(2)
+    pivots, sizes = np.zeros(4, dtype=np.intp), np.zeros((2, 1))
+    about = four, where, np.zeros((1, 1)), pair, pair, where
+    law = np.zeros((1, 4, 8)), square, pivots, sizes, four, four, four, move
+    end = np.zeros(2), where
+    given: tuple[Any, ...] = *maps, move, move, np.zeros((1, 4, 4)), square, *memory, *law, *about, *end
+    step(*given)

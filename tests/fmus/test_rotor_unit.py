@@ -10,8 +10,10 @@ import pytest
 from fmpy.fmi1 import FMICallException
 
 from fmus import port
+from rotor_fmu.facade import RotorSlave
 from rotor_fmu.recipe import rotor_recipe
 from rotor_fmu.start_values import default_starts
+from rotor_fmu.vibration.affine_step import NoFiniteResult
 from rotor_fmu.vibration.rotor import Rotor
 
 H = 1e-4
@@ -137,6 +139,79 @@ def test_steps_give_the_numbers_of_the_rotor(unit, small_train):
         assert unit.get(*block) == getattr(fields, key).tolist()
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"fracture.time": 3.5 * H, "wheel[1].blade_unbalance": 0.1},
+        {port.COURSE: "[[0.0, 100.0], [1e-3, 101.0]]"},
+        {port.TORQUE: "[[0.0, 1e6]]", "drive.inertia": 1e3},
+        {"track_work": 1},
+    ],
+    ids=["laws", "blade", "course", "torque", "works"],
+)
+def test_a_step_in_parts_is_as_many_steps(host, small_train, settings):
+    law = law_of(small_train)
+    whole, each = host.open("whole"), host.open("each")
+    for unit in (whole, each):
+        set_law(unit, small_train, law)
+    settings = {"start.from_law": 1, "speed": 100.0, **settings}
+    whole.start(settings | {port.PARTS: 3})
+    each.start(settings)
+    for k in range(6):
+        assert whole.step(k * H, H), whole.said
+        for part in range(3):
+            assert each.step((k + part / 3) * H, H / 3), each.said
+        one, other = (journals(unit, small_train) for unit in (whole, each))
+        assert np.abs(one - other).max() <= 1e-11 * np.abs(other).max()
+        told = port.ROTATION, "work.bearings", "stress.max"
+        assert whole.get(*told) == pytest.approx(each.get(*told), rel=1e-9)
+    assert (whole.get(port.ROTATION) == 100.0) == (not {port.COURSE, port.TORQUE} & settings.keys())
+    for unit in (whole, each):
+        unit.close()
+
+
+def test_the_speed_at_the_input_is_reached_in_equal_parts(host, small_train):
+    whole, each = host.open("whole"), host.open("each")
+    for unit, parts in ((whole, 2), (each, 1)):
+        set_law(unit, small_train, law_of(small_train))
+        unit.start({"start.from_law": 1, "speed": 100.0, port.PARTS: parts})
+    whole.set({"speed": 101.0})
+    assert whole.step(0.0, H), whole.said
+    for k, speed in enumerate((100.5, 101.0)):
+        each.set({"speed": speed})
+        assert each.step(k * H / 2, H / 2), each.said
+    assert whole.get(port.ROTATION) == each.get(port.ROTATION) == 101.0
+    assert np.array_equal(journals(whole, small_train), journals(each, small_train))
+    for unit in (whole, each):
+        unit.close()
+
+
+def test_a_step_of_which_a_part_fails_is_not_taken(host, small_train, monkeypatch):
+    slave = RotorSlave(instance_name="rotor", resources=str(host.folder / "resources"))
+    slave.set_integer([slave.layout[port.PARTS]], [3])
+    slave.set_real([slave.layout["fracture.time"]], [1.5 * H])  # takes parts one by one
+    slave.setup_experiment(0.0)
+    slave.enter_initialization_mode()
+    slave.exit_initialization_mode()
+    assert slave.do_step(0.0, H)
+    before, taken = slave.model_state(), []
+    rotor, step = slave._rotor, slave._rotor.step
+
+    def fails_the_third(*given):
+        taken.append(given[0])
+        if len(taken) == 3:
+            raise NoFiniteResult("the third part")
+        step(*given)
+
+    monkeypatch.setattr(rotor, "step", fails_the_third)
+    assert not slave.do_step(H, H)
+    assert taken == pytest.approx([H, 4 / 3 * H, 5 / 3 * H])
+    assert slave.model_state().to_bytes() == before.to_bytes()
+    monkeypatch.undo()
+    assert slave.do_step(H, H)
+
+
 def test_initialization_follows_the_laws(unit, small_train):
     """A master may search for the equilibrium in Initialization Mode."""
     F0, K, C = law_of(small_train)
@@ -189,6 +264,7 @@ def test_a_later_start_goes_on_with_the_angle(host, small_train):
     [
         ({"reduction": "magic"}, "reduction 'magic' is unknown; allowed are irs"),
         ({"gravity": -9.8}, "gravity = -9.8"),
+        ({"parts": 0}, "parts = 0, allowed is >= 1"),
         ({"wheel[1].unbalance": math.nan}, "wheel[1].unbalance is not a number"),
         ({"start.from_law": 1}, "rigid-body"),
     ],

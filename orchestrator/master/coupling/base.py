@@ -91,12 +91,15 @@ class Coupling(Protocol):
     many_rates : bool
         Whether bearings may stay behind where the step does not end on a common instant; it then goes on
         without taking steps back, too.
+    parts : int
+        Equal parts in which the rotor goes each step under one law.
     """
 
     name: ClassVar[str]
     wiring: ClassVar[Wiring]
     iterates: ClassVar[bool]
     many_rates: ClassVar[bool]
+    parts: ClassVar[int]
 
     @property
     def memory(self) -> dict[str, NDArray[Any]]:
@@ -128,6 +131,7 @@ class Memoryless:
 
     iterates: ClassVar[bool] = False
     many_rates: ClassVar[bool] = False
+    parts: ClassVar[int] = 1
 
     def refuse(self) -> None:
         """Nothing."""

@@ -60,6 +60,7 @@ class IqnIls:
     wiring: ClassVar[Wiring] = Wiring.FORCE
     iterates: ClassVar[bool] = True
     many_rates: ClassVar[bool] = False
+    parts: ClassVar[int] = 1
 
     _history: list[tuple[Array, Array]] = field(default_factory=list, init=False)
     _size: Array | None = field(default=None, init=False)

@@ -4,8 +4,8 @@ A bearing whose wrench bends little need not be evaluated at every step of the r
 ``F0 - K q - C v``, expanded where it stood last and bent on as it did before (`rates`), serves until it is
 evaluated again, at the end of an interval of its own.  What the law has missed by then is the defect, against
 the largest force of late: a force that turns with the rotor is as large once in a revolution.
-The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones; where laws
-bend it goes each in `PARTS`.  The interval
+The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones; it goes each
+in `PARTS`.  The interval
 of a bearing doubles where its defect is calm and halves where it is above `OWN` of the tolerance.  It is
 evaluated early when motion and velocity have changed its wrench so much that the defect, which goes with the
 square of that change, is to be expected above; so nothing need be taken back for it.
@@ -44,14 +44,11 @@ tangent jumps a little, and at intervals short enough to follow that the order i
 
 
 PARTS = 3
-"""Steps of the rotor under one law where it bends, for within its own the rotor lets wrenches run straight.
+"""Parts in which the rotor goes a step under laws that bend, for within each it lets wrenches run straight.
 
 An odd number: of what is strongly damped such a step turns the sign of what is too much in its wrench (as the
 trapezoidal rule does); an even number keeps it, and from law to law it adds up.
 """
-
-STRAIGHT = 0.05
-"""Share of the tolerance within which one part will do next."""
 
 LATE = 2.0
 """Revolutions in which the size that defects are measured by falls to 1/e of what it was."""
@@ -90,12 +87,11 @@ class Multirate:
     wiring: ClassVar[Wiring] = Wiring.LAW
     iterates: ClassVar[bool] = False
     many_rates: ClassVar[bool] = True
+    parts: ClassVar[int] = PARTS
 
     _room: _Room | None = field(default=None, init=False)
     _taken: bool = field(default=False, init=False)
     """Whether the last step was taken, so that what is next counts if it is not refused."""
-    _parts: int = field(default=1, init=False)
-    """Steps of the rotor to the next step."""
     _known: bool = field(default=False, init=False)
     """Whether anything is known of the bearings."""
     _before: float = field(default=0.0, init=False)
@@ -109,7 +105,7 @@ class Multirate:
             return {}
         rates = self._room.next if self._taken else self._room.rates
         named = {name: rates[:, column].copy() for column, name in enumerate(KNOWN)}
-        return named | {"tangents": rates[:, BEFORE:].copy(), "parts": np.array(self._parts)}
+        return named | {"tangents": rates[:, BEFORE:].copy()}
 
     @memory.setter
     def memory(self, arrays: dict[str, NDArray[Any]]) -> None:
@@ -119,7 +115,6 @@ class Multirate:
             columns = [arrays[name] for name in KNOWN]
             room.rates[:] = np.column_stack([*columns, arrays["tangents"]])
             self._reached = self._before = float(room.rates[:, STANDS].max())
-            self._parts = int(arrays["parts"])
 
     def refuse(self) -> None:
         """Go back to the intervals before the step; what was above the tolerance is due in its repetition."""
@@ -139,15 +134,12 @@ class Multirate:
         room, end = self._at(system, time, step), time + step
         rates, due, moved = room.rates, room.due, room.moved
         wrenches, tangents, where = system.forces, system.tangent_rows, system.stands_at()
-        bends = self.tolerance >= FINEST
+        bends, changed = self.tolerance >= FINEST, (room.changed, room.numbers)
         count = known.bend_on(
-            time, step, bends, rates, wrenches, tangents, where, system.laws, room.changed, room.numbers
+            time, step, bends, common, rates, room.again, wrenches, tangents, where, system.laws, *changed
         )
         system.tell_laws(room.numbers[:count].tolist())
-        part = step / self._parts
-        for k in range(self._parts):
-            system.rotor_group.step(time + k * part, part)
-        system.rotor_group.fetch()
+        system.carry_rotor(time, step, PARTS)
         motion, own = system.motion, OWN * self.tolerance
         standing = rates, tangents, where, motion, system.levers, room.again, system.laws
         seen = moved, due, room.tangents, room.bent, room.numbers, room.spans
@@ -177,7 +169,6 @@ class Multirate:
             room.rough,
             room.next,
         )
-        self._parts = PARTS if (room.sizes[due] > STRAIGHT * self.tolerance).any() else 1
         self._taken, self._before, self._reached = True, time, end
         return Advance(1, room.defect, None, due.copy(), Errors(largest, answered))
 

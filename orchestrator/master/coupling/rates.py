@@ -90,7 +90,9 @@ def bend_on(
     time: float,
     step: float,
     bends: bool,
+    common: bool,
     rates: Array,
+    again: Mask,
     wrenches: Array,
     tangents: Array,
     where: Array,
@@ -103,9 +105,8 @@ def bend_on(
     A tangent misses what the wrench bends by within the interval h.  While the motion is smooth, K and C
     go on changing as they did over the interval before, by D a second.  Where the motion runs straight, a
     tangent ``K + D h / 2`` then meets the wrench at the end to third order, at no evaluation.  It
-    stays a stiffness and a damping, which the rotor takes implicitly; the last defect, added as a force,
-    was tried and does harm in contact.  Of the change of each component no more than `MOST` of itself is
-    followed.
+    stays a stiffness and a damping, which the rotor takes implicitly; the last defect, added as a force, was
+    tried and does harm in contact.  Of the change of each component `MOST` of itself is followed at most.
 
     Parameters
     ----------
@@ -115,14 +116,14 @@ def bend_on(
         Whether laws bend on.
     rates : ndarray (n, WIDTH)
         What is known; instants that are `time` but for rounding become `time`.
-    wrenches, tangents : ndarray (n, 4), (n, 32)
-        What the bearings returned last.
-    where : ndarray (n, 8)
-        Motion of the journals in their housings where the bearings stand.
+    common, again : bool, ndarray of bool (n,)
+        Whether all are evaluated at the end of the step, and those that are in any case.
+    wrenches, tangents, where : ndarray (n, 4), (n, 32), (n, 8)
+        What bearings returned last, and the motion of journals in their housings where they did.
     laws : ndarray (n, 36)
         Of the rotor; those that change are overwritten.
     changed, numbers : ndarray (n,) of bool and of int
-        Overwritten with which, and the first with their numbers, as many as are returned.
+        Overwritten with which, and the first with their numbers; as many as are returned.
     """
     count = 0
     for b in range(len(rates)):
@@ -132,7 +133,7 @@ def bend_on(
         rates[b, STANDS] = time
         span, ratio = rates[b, SPAN], 0.0
         if bends and span > 0.0:
-            ratio = max(rates[b, INTERVAL], step) / span
+            ratio = (step if common or again[b] else max(rates[b, INTERVAL], step)) / span
         for i in range(4):
             wrench = wrenches[b, i]
             for part in range(2):
@@ -168,7 +169,7 @@ def due_at(
     """Find which bearings are to be evaluated at the end of a step.
 
     That is at the end of their intervals, and where motion and velocity have changed the wrench so much that
-    the defect is to be expected above the tolerance.
+    a defect above the tolerance is to be expected.
 
     Parameters
     ----------
@@ -225,8 +226,7 @@ def relative(
 ) -> tuple[float, float]:
     """Measure defects: the largest of all, and of those for which the length of the step answers.
 
-    A shorter step helps those that stand at its start, and others once, to be evaluated in time: they are due
-    in its repetition.
+    A shorter step helps those that stand at its start, and others once: they are due in its repetition.
 
     Parameters
     ----------
@@ -293,7 +293,7 @@ def intervals_after(
 def measure(forces: Array, loads: Array, faded: float, rates: Array, size: Array) -> None:
     """Overwrite sizes with the largest forces of late in N.
 
-    Those are a force now (n, 4), a share of the last size that is left of it, and one of the load.
+    Those are a force now (n, 4), the share of the last size that is left, and one of the load.
     """
     for b in range(len(size)):
         force = math.hypot(forces[b, 0], forces[b, 1])

@@ -101,18 +101,19 @@ def test_a_step_answers_for_bearings_that_stand_at_its_start_and_once_for_others
     ).all()
 
 
-def bent_law(wrench, tangent, before, ratio, where):
+def bent_law(wrench, tangent, before, ratio, where, *, step=0.1, common=False, again=False):
     """The law of a bearing that stands at 1.0, of which an interval of 1 is over and `ratio` begins."""
     given, laws = [np.array(each)[None] for each in (wrench, tangent, where)], np.full((1, 36), 7.0)
     table, changed = np.zeros((1, known.WIDTH)), np.zeros(1, dtype=bool)
     numbers = np.full(1, 7)
     table[0, STANDS], table[0, SPAN], table[0, INTERVAL] = 1.0 + 1e-9, float(ratio > 0.0), ratio
     table[0, BEFORE:] = before
-    known.bend_on(0.5, 0.1, True, table, *given, laws, changed, numbers)  # it stands elsewhere
+    asked = True, common, table, np.array([again])
+    known.bend_on(0.5, step, *asked, *given, laws, changed, numbers)  # it stands elsewhere
     assert not changed[0] and np.all(laws == 7.0)
-    assert known.bend_on(1.0, 0.1, True, table, *given, laws, changed, numbers) == changed[0]
+    assert known.bend_on(1.0, step, *asked, *given, laws, changed, numbers) == changed[0]
     assert changed[0] and table[0, STANDS] == 1.0
-    assert known.bend_on(1.0, 0.1, True, table, *given, laws, changed, numbers) == changed[0]
+    assert known.bend_on(1.0, step, *asked, *given, laws, changed, numbers) == changed[0]
     assert not changed[0]
     return laws[0]
 
@@ -143,3 +144,14 @@ def test_a_law_follows_no_change_beyond_a_share_of_itself_and_none_without_an_in
     bends = [bent_law(np.zeros(4), tangent, before, ratio, np.zeros(8))[4:] for ratio in (1.0, 0.0)]
     np.testing.assert_allclose(bends[0], 2.0 * (1.0 + known.SHARE / 3.0 * known.MOST))
     np.testing.assert_array_equal(bends[1], 2.0)
+
+
+@both_ways
+def test_a_law_bends_for_as_long_as_it_will_serve():
+    """That is the step, not the interval, where the bearing is evaluated at its end in any case."""
+    laws = [
+        bent_law(np.zeros(4), np.full(32, 2.0), np.full(32, 1.9), 1.0, np.zeros(8), step=0.25, **asked)[4:]
+        for asked in ({}, {"common": True}, {"again": True})
+    ]
+    for law, ratio in zip(laws, (1.0, 0.25, 0.25), strict=True):
+        np.testing.assert_allclose(law, 2.0 + known.SHARE / 3.0 * 0.1 * ratio)

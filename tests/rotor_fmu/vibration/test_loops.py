@@ -7,7 +7,7 @@ import pytest
 
 from rotor_fmu.train.file import load_train
 from rotor_fmu.vibration import field_loops, law_loops, whirl_loops
-from rotor_fmu.vibration.affine_step import AffineStep, journal_motion
+from rotor_fmu.vibration.affine_step import AffineStep, NoFiniteResult, journal_motion
 from rotor_fmu.vibration.rotor import Rotor
 from rotor_fmu.vibration.state import RotorState
 
@@ -43,7 +43,10 @@ def test_wrenches_at_the_end_are_those_of_the_law_under_themselves(rng, loop, sh
     loop(law_loops, "mix")(of_start, of_end, nearer, moves)
     np.testing.assert_allclose(moves, of_end + nearer * (of_start - of_end), rtol=1e-12)
     memory, moved = np.full((LOADS, LOADS), np.nan), journals.copy()
-    assert loop(law_loops, "end_wrenches")(law, offset, moves, memory, moved, wrench)
+    pivots = np.zeros(LOADS, dtype=np.intp)
+    assert loop(law_loops, "factorise")(law, moves, memory, pivots)
+    assert (pivots != np.arange(LOADS)).any(), "rows are exchanged"
+    loop(law_loops, "end_wrenches")(law, offset, moves, memory, pivots, moved, wrench)
     np.testing.assert_allclose(moved, journals + moves @ wrench, rtol=1e-12, atol=1e-14)
     again = np.empty(LOADS)
     loop(law_loops, "react")(law, offset, moved, again)
@@ -56,8 +59,7 @@ def test_a_law_without_a_solution(rng, loop):
     law, of_end = np.zeros((1, 4, 8)), np.zeros((1, 8, 4))
     law[0, :, :4] = np.array([[-1.0, 1.0, 0, 0], [1.0, 3.0, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1.0]])
     of_end[0, :4] = np.eye(4)
-    given = law, np.ones(4), of_end, np.empty((4, 4)), np.zeros((1, 8)), np.empty(4)
-    assert not loop(law_loops, "end_wrenches")(*given)
+    assert not loop(law_loops, "factorise")(law, of_end, np.empty((4, 4)), np.zeros(4, dtype=np.intp))
 
 
 def test_stiffness_numbers(rng, loop):
@@ -130,7 +132,7 @@ def test_no_step_waits_for_the_compiler():
     loops = [
         getattr(module, name)
         for module, names in (
-            (law_loops, ("react", "begin", "end_wrenches")),
+            (law_loops, ("react", "begin", "half_shares", "mix", "factorise", "end_wrenches")),
             (whirl_loops, ("coast", "add_product", "step")),
             (field_loops, ("fields_at",)),
         )
@@ -146,6 +148,7 @@ def test_no_step_waits_for_the_compiler():
         rotor.fields()
     rotor.set_state(RotorState.from_bytes(rotor.get_state().to_bytes()))
     rotor.step(3e-4, 1e-4, *strided, rotor.speed)
+    assert rotor.go(4e-4, 1e-4, *strided, rotor.speed, 3)
     assert [len(loop.signatures) for loop in loops] == before
 
 
@@ -179,3 +182,51 @@ def test_a_whirl_steps_in_one_go_as_in_parts(rng, stiffness, kicked):
     assert (nearer is None) == (stiffness < 1e10)
     if nearer is not None:
         np.testing.assert_allclose(nearer, nearer_in_parts, rtol=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [1e7, 1e13])
+def test_parts_of_a_step_in_one_go_are_steps(rng, stiffness):
+    """1 + L S is solved for once then."""
+    one, other = (Rotor.of_train(load_train("small")) for _ in range(2))
+    law = (
+        1e3 * rng.normal(size=(2, 4)),
+        stiffness * (np.eye(4) + 0.3 * rng.normal(size=(2, 4, 4))),
+        np.tile(1e3 * np.eye(4), (2, 1, 1)),
+    )
+    step = 1.5e-4
+    for rotor in (one, other):
+        rotor.start_from_law(*law, orbit=True)
+        rotor.step(0.0, step, *law, rotor.speed)  # from the coordinates of the start into those of the speed
+    law[0][:] += 1e3
+    for k in (1, 2, 3):
+        assert one.go(k * step, step, *law, one.speed, 3)
+        for part in range(3):
+            other.step(k * step + part * step / 3, step / 3, *law, other.speed)
+        state, expected = one.get_state(), other.get_state()
+        for name in ("motion", "journals"):
+            found, alike = getattr(state, name), getattr(expected, name)
+            np.testing.assert_allclose(found, alike, rtol=0, atol=1e-11 * np.abs(alike).max())
+        assert (state.angle, state.time) == pytest.approx((expected.angle, expected.time), rel=1e-12)
+        assert one.holds_mean == other.holds_mean == (stiffness > 1e10)
+
+
+def test_what_is_not_done_in_one_go():
+    """A blade that breaks within the step, a speed that changes, an account of works."""
+    law = np.zeros((2, 4)), np.tile(1e8 * np.eye(4), (2, 1, 1)), np.tile(1e5 * np.eye(4), (2, 1, 1))
+    rotor, accounts = (
+        Rotor.of_train(load_train("small"), fracture_time=3e-4, blade_unbalance=[0.1, 0, 0], track_work=on)
+        for on in (False, True)
+    )
+    for each in (rotor, accounts):
+        each.start_from_law(*law, orbit=True)
+        each.step(0.0, 1e-4, *law, each.speed)
+    assert not accounts.go(1e-4, 1e-4, *law, rotor.speed)
+    before = rotor.get_state()
+    assert not rotor.go(2.5e-4, 1e-4, *law, rotor.speed)
+    assert not rotor.go(1e-4, 1e-4, *law, 1.01 * rotor.speed)
+    assert rotor.get_state() is before
+    assert rotor.go(1e-4, 1e-4, *law, rotor.speed)
+    assert rotor.get_state() is not before
+    with pytest.raises(NoFiniteResult):
+        rotor.go(2e-4, 5e-5, law[0], np.nan * law[1], law[2], rotor.speed)
+    assert rotor.get_state().time == 2e-4
