@@ -155,8 +155,9 @@ def _carry_out(
     except (EquilibriumError, UnitError) as error:
         assert error.outcome is not None
         return _failed_start(case, error.outcome, f"at the start: {error}", Timing(load, clock.lap()))
+    loop = _TimeLoop(case, system, start)
     announce(Stage.RUN, 0.0)
-    return _TimeLoop(case, system, start, Timing(load, clock.lap())).run(announce, execution)
+    return loop.run(announce, execution, Timing(load, clock.lap()))
 
 
 def _failed_start(case: Case, outcome: Outcome, message: str, timing: Timing | None = None) -> Result:
@@ -176,8 +177,8 @@ def _warm_up(system: System, train: Train) -> None:
 class _TimeLoop:
     """A system that stands at its start, with all that watches it."""
 
-    def __init__(self, case: Case, system: System, start: Start, timing: Timing) -> None:
-        self._case, self._system, self._start, self._timing = case, system, start, timing
+    def __init__(self, case: Case, system: System, start: Start) -> None:
+        self._case, self._system, self._start, self._timing = case, system, start, Timing()
         self._so_far: RecordSoFar | None = None
         self._train = as_it_runs(case.train, system)
         scenario, train = case.scenario, case.train
@@ -208,8 +209,9 @@ class _TimeLoop:
             system.rotor.get_string(_REDUCTION) if _REDUCTION in system.rotor.file.variables else ""
         )
 
-    def run(self, announce: Progress, execution: Execution) -> Result:
-        """Carry it to its end."""
+    def run(self, announce: Progress, execution: Execution, timing: Timing) -> Result:
+        """Carry it to its end; `timing` is what it took until now."""
+        self._timing = timing
         scenario, system, watchdog = self._case.scenario, self._system, execution.watchdog
         resume, observers, checkpoints = execution.resume, list(self._observers), execution.checkpoints
         if execution.growing is not None:
