@@ -46,6 +46,8 @@ from orchestrator.scenario.scenario import Scenario
 from orchestrator.scenario.schedule import schedule_of, turned
 from rotor_fmu.train.train import Train
 
+_LEAST_LOAD = 1.0
+"""In N, by which forces are measured at least where bearings carry nothing at the start."""
 _REDUCTION = "reduction.used"
 
 
@@ -134,10 +136,6 @@ def execute(case: Case, progress: Progress | None = None, execution: Execution |
     return replace(result, record=result.record.assign_attrs(case.attributes))
 
 
-_LEAST_LOAD = 1.0
-"""In N, by which forces are measured at least where bearings carry nothing at the start."""
-
-
 def _carry_out(
     case: Case, system: System, clock: Stopwatch, announce: Progress, execution: Execution
 ) -> Result:
@@ -157,7 +155,8 @@ def _carry_out(
         return _failed_start(case, error.outcome, f"at the start: {error}", Timing(load, clock.lap()))
     loop = _TimeLoop(case, system, start)
     announce(Stage.RUN, 0.0)
-    return loop.run(announce, execution, Timing(load, clock.lap()))
+    loop.timing = Timing(load, clock.lap())
+    return loop.run(announce, execution)
 
 
 def _failed_start(case: Case, outcome: Outcome, message: str, timing: Timing | None = None) -> Result:
@@ -178,7 +177,7 @@ class _TimeLoop:
     """A system that stands at its start, with all that watches it."""
 
     def __init__(self, case: Case, system: System, start: Start) -> None:
-        self._case, self._system, self._start, self._timing = case, system, start, Timing()
+        self._case, self._system, self._start, self.timing = case, system, start, Timing()
         self._so_far: RecordSoFar | None = None
         self._train = as_it_runs(case.train, system)
         scenario, train = case.scenario, case.train
@@ -205,13 +204,11 @@ class _TimeLoop:
             self._observers.append(self._revolutions)
         self._provenance = {unit.file.path.name: str(unit.file.description.guid) for unit in system.units}
         self._least_damped = least_damped_attributes(train, case.units.speed, start.tangents)
-        self._reduction = (
-            system.rotor.get_string(_REDUCTION) if _REDUCTION in system.rotor.file.variables else ""
-        )
+        told = _REDUCTION in system.rotor.file.variables
+        self._reduction = system.rotor.get_string(_REDUCTION) if told else ""
 
-    def run(self, announce: Progress, execution: Execution, timing: Timing) -> Result:
-        """Carry it to its end; `timing` is what it took until now."""
-        self._timing = timing
+    def run(self, announce: Progress, execution: Execution) -> Result:
+        """Carry it to its end."""
         scenario, system, watchdog = self._case.scenario, self._system, execution.watchdog
         resume, observers, checkpoints = execution.resume, list(self._observers), execution.checkpoints
         if execution.growing is not None:
@@ -254,7 +251,7 @@ class _TimeLoop:
         (rotor, rotor_exchange), (film, film_exchange) = spent
         fmi = rotor_exchange + film_exchange
         rest = end.wall_time - film - rotor - fmi - end.record_time
-        timing = replace(self._timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
+        timing = replace(self.timing, film=film, rotor=rotor, fmi=fmi, record=end.record_time, master=rest)
         outcome, message = end.outcome, with_state(end, self._system, self._start.offsets)
         record = self._record(outcome, message)
         if outcome.ok:
@@ -269,8 +266,9 @@ class _TimeLoop:
     def _hung(self, message: str) -> Result:
         """Make the result of a loop that hangs in a unit."""
         record = self._record(Outcome.UNIT_HUNG, message)
-        evaluations = self._system.bearing_group.evaluations
-        return Result(record, Outcome.UNIT_HUNG, message, self._timing, 0, evaluations)
+        return Result(
+            record, Outcome.UNIT_HUNG, message, self.timing, 0, self._system.bearing_group.evaluations
+        )
 
     def _record(self, outcome: Outcome, message: str) -> xr.Dataset:
         """The whole record; of what grew on disk its series are read when they are used."""

@@ -14,6 +14,10 @@ STAYS = 0.7
 falls to a quarter or less. What a start leaves that is soon damped falls more slowly until steps are short
 enough to follow it (0.65 on the small train), a jump not at all."""
 
+SLIGHT, STUBBORN = 0.05, 5
+"""Error up to which a step over a jump counts once two halvings were no help, as a run does; and how many are
+tried where it is larger."""
+
 LEAST, LARGEST = 1e-6, 0.2
 """Relative error that may be taken for a jump: below is rounding, above a run has no meaning."""
 
@@ -40,7 +44,8 @@ class Jumps:
         if not self._errors:
             self._level, self._end = level, end
         self._errors.append(error)
-        if len(self._errors) < 3 or not LEAST < error <= LARGEST or error <= STAYS * self._errors[-3]:
+        tries = 3 if error <= SLIGHT else 1 + STUBBORN
+        if len(self._errors) < tries or not LEAST < error <= LARGEST or error <= STAYS * self._errors[-3]:
             return False
         self.behind, self._end = self._level, end
         return True

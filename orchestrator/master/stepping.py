@@ -167,7 +167,7 @@ class Stepper:
         self._jumps = Jumps()
         self._marks = not scheme.iterates and system.rollback.possible
         self.counts = StepCounts()
-        self.level, self._deepest = level, level + DEEPEST
+        self.level, self._deepest, self._halvings = level, level + DEEPEST, 1
 
     def begin_anew(self, level: int) -> None:
         """Take note of an event: steps of many rates begin behind it with so many halvings again."""
@@ -194,7 +194,9 @@ class Stepper:
             )
             done += verdict is not Verdict.TAKEN_BACK
             if verdict in (Verdict.TAKEN_BACK, Verdict.LONG) and self.level < self._deepest:
-                self.level, done = self.level + 1, 2 * done
+                more = self._halvings if verdict is Verdict.TAKEN_BACK else 1
+                more = min(more, self._deepest - self.level)
+                self.level, done = self.level + more, done << more
                 self._jumps.taken_back()
                 continue
             easy = verdict is Verdict.EASY
@@ -245,7 +247,7 @@ class Stepper:
 
     def _take_back(self) -> None:
         self._system.rollback.take_back()
-        self.scheme.refuse()
+        self._halvings = self.scheme.refuse()
 
     def _advance(self, time: float, step: float, common: bool) -> Advance:
         """Carry the system over a step, and estimate its error."""

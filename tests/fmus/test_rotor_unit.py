@@ -167,8 +167,7 @@ def test_a_step_in_parts_is_as_many_steps(host, small_train, settings):
         told = port.ROTATION, "work.bearings", "stress.max"
         assert whole.get(*told) == pytest.approx(each.get(*told), rel=1e-9)
     assert (whole.get(port.ROTATION) == 100.0) == (not {port.COURSE, port.TORQUE} & settings.keys())
-    for unit in (whole, each):
-        unit.close()
+    whole.close(), each.close()
 
 
 def test_the_speed_at_the_input_is_reached_in_equal_parts(host, small_train):
@@ -183,15 +182,13 @@ def test_the_speed_at_the_input_is_reached_in_equal_parts(host, small_train):
         assert each.step(k * H / 2, H / 2), each.said
     assert whole.get(port.ROTATION) == each.get(port.ROTATION) == 101.0
     assert np.array_equal(journals(whole, small_train), journals(each, small_train))
-    for unit in (whole, each):
-        unit.close()
+    whole.close(), each.close()
 
 
 def test_a_step_of_which_a_part_fails_is_not_taken(host, small_train, monkeypatch):
     slave = RotorSlave(instance_name="rotor", resources=str(host.folder / "resources"))
     slave.set_integer([slave.layout[port.PARTS]], [3])
     slave.set_real([slave.layout["fracture.time"]], [1.5 * H])  # takes parts one by one
-    slave.setup_experiment(0.0)
     slave.enter_initialization_mode()
     slave.exit_initialization_mode()
     assert slave.do_step(0.0, H)

@@ -119,8 +119,8 @@ class Coupling(Protocol):
             When iterations do not reach the tolerance.
         """
 
-    def refuse(self) -> None:
-        """Forget the last step, which is taken back."""
+    def refuse(self) -> int:
+        """Forget the last step, which is taken back, and return by how many halvings to repeat it."""
 
     def begin_anew(self) -> None:
         """Take note that something happens now: what was learned before does not hold behind it."""
@@ -133,8 +133,9 @@ class Memoryless:
     many_rates: ClassVar[bool] = False
     parts: ClassVar[int] = 1
 
-    def refuse(self) -> None:
-        """Nothing."""
+    def refuse(self) -> int:
+        """One halving will do."""
+        return 1
 
     def begin_anew(self) -> None:
         """Nothing."""

@@ -78,8 +78,9 @@ class IqnIls:
         self._history = [(arrays[f"V{k}"], arrays[f"W{k}"]) for k in range(steps)]
         self._size = arrays.get("size")
 
-    def refuse(self) -> None:
-        """Nothing: differences of a step taken back are as good."""
+    def refuse(self) -> int:
+        """One halving will do; differences of a step taken back are as good."""
+        return 1
 
     def begin_anew(self) -> None:
         """Nothing: differences of steps before an event are as good as any first guess."""

@@ -50,6 +50,9 @@ An odd number: of what is strongly damped such a step turns the sign of what is 
 trapezoidal rule does); an even number keeps it, and from law to law it adds up.
 """
 
+SOON = 3
+"""Halvings of a step in which a bearing that stood behind turned out to have been hit."""
+
 LATE = 2.0
 """Revolutions in which the size that defects are measured by falls to 1/e of what it was."""
 
@@ -116,11 +119,20 @@ class Multirate:
             room.rates[:] = np.column_stack([*columns, arrays["tangents"]])
             self._reached = self._before = float(room.rates[:, STANDS].max())
 
-    def refuse(self) -> None:
-        """Go back to the intervals before the step; what was above the tolerance is due in its repetition."""
-        if self._room is not None:
-            self._taken, self._room.again[:] = False, self._room.rough
-            self._reached = self._before
+    def refuse(self) -> int:
+        """Go back to the intervals before the step; what was above the tolerance is due in its repetition.
+
+        Where that is a surprise, at a bearing that stood behind, the repetition is `SOON` halvings shorter, for
+        what happens before its law is a new one the rotor does not feel.
+        """
+        room = self._room
+        if room is None:
+            return 1
+        behind = room.rates[:, STANDS] < self._before
+        surprised = bool((room.rough & behind & ~room.again).any())
+        self._taken, room.again[:] = False, room.rough
+        self._reached = self._before
+        return SOON if surprised else 1
 
     def begin_anew(self) -> None:
         """Forget the intervals, for something happens: each begins with a step and is evaluated behind it."""
@@ -141,7 +153,17 @@ class Multirate:
         system.tell_laws(room.numbers[:count].tolist())
         system.carry_rotor(time, step, PARTS)
         motion, own = system.motion, OWN * self.tolerance
-        standing = rates, tangents, where, motion, system.levers, room.again, system.laws
+        standing = (
+            rates,
+            wrenches,
+            tangents,
+            where,
+            motion,
+            system.loads,
+            system.levers,
+            room.again,
+            system.laws,
+        )
         seen = moved, due, room.tangents, room.bent, room.numbers, room.spans
         count = find_due(time, step, own, common, *standing, *seen)
         system.bearing_group.carry(*room.orders(count))

@@ -32,9 +32,11 @@ def find_due(
     tolerance: float,
     all_of_them: bool,
     rates: Array,
+    wrenches: Array,
     tangents: Array,
     where: Array,
     motion: Array,
+    loads: Array,
     levers: Array,
     again: Mask,
     laws: Array,
@@ -63,7 +65,21 @@ def find_due(
         As `rates.due_at` takes them.
     """
     end = time + step
-    due_at(end, tolerance, all_of_them, rates, tangents, where, motion, levers, again, moved, due)
+    due_at(
+        end,
+        tolerance,
+        all_of_them,
+        rates,
+        wrenches,
+        tangents,
+        where,
+        motion,
+        loads,
+        levers,
+        again,
+        moved,
+        due,
+    )
     for b in range(len(due)):
         copy(tangents[b], before[b])
         _bent(laws[b], tangents[b], where[b], motion[b], bent[b])

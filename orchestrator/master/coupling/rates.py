@@ -50,9 +50,9 @@ LINEAR = 1e-3
 FADES = 0.5
 """Share of the bend of the interval before that is expected still: a calm interval tells little of it."""
 
-SHARE = 1.5
-"""Of a third of the change: half of it, with which a law meets a smooth wrench at the end. A third has
-its mean, but what is stiff or strongly damped rests on the end."""
+SHARE = 0.5
+"""Share of the change with which a law meets a smooth wrench at the end; a third has its mean, but what is
+stiff or strongly damped rests on the end."""
 
 FELT = 0.3
 """Share of what a tangent misses that a bent law is taken to miss at least: not all of it was foreseen."""
@@ -60,11 +60,11 @@ FELT = 0.3
 MOST = 0.5
 """Change of a component of K or C over an interval, against itself, that is followed at most."""
 
-_WHOLE = 1.0 - 1e-6
-"""Share of an interval that counts as the whole."""
+SLACK = 0.12
+"""Share of the largest force of late below which a film bears nothing."""
 
-_HERE = 1e-6
-"""Share of a step by which instants differ that are the same but for rounding."""
+_SAME = 1e-6
+"""Share by which intervals, forces, and of a step instants, differ that are the same but for rounding."""
 
 _NOTHING = 1e-12
 """Relative change of a wrench that is none."""
@@ -128,7 +128,7 @@ def bend_on(
     count = 0
     for b in range(len(rates)):
         changed[b] = False
-        if not abs(rates[b, STANDS] - time) <= _HERE * step:
+        if not abs(rates[b, STANDS] - time) <= _SAME * step:
             continue
         rates[b, STANDS] = time
         span, ratio = rates[b, SPAN], 0.0
@@ -141,7 +141,7 @@ def bend_on(
                     k = 16 * part + 4 * i + j
                     tangent = tangents[b, k]
                     change, most = (tangent - rates[b, BEFORE + k]) * ratio, MOST * abs(tangent)
-                    bent = tangent + SHARE / 3.0 * min(max(change, -most), most)
+                    bent = tangent + SHARE * min(max(change, -most), most)
                     wrench += bent * where[b, 4 * part + j]
                     changed[b] |= laws[b, 4 + k] != bent
                     laws[b, 4 + k] = bent
@@ -158,9 +158,11 @@ def due_at(
     tolerance: float,
     all_of_them: bool,
     rates: Array,
+    wrenches: Array,
     tangents: Array,
     where: Array,
     motion: Array,
+    loads: Array,
     levers: Array,
     again: Mask,
     moved: Array,
@@ -168,28 +170,23 @@ def due_at(
 ) -> None:
     """Find which bearings are to be evaluated at the end of a step.
 
-    That is at the end of their intervals, and where motion and velocity have changed the wrench so much that
-    a defect above the tolerance is to be expected.
+    That is at the end of their intervals, where motion and velocity have changed the wrench so much that
+    a defect above the tolerance is to be expected, and always where a film bears less than `SLACK` of what it
+    did of late, and is to go on so: what may come its tangent does not tell.
 
     Parameters
     ----------
-    end, tolerance : float
-        In s; largest relative defect of an interval.
-    all_of_them : bool
-        Whether the end is a common instant.
-    rates, tangents, where
+    end, tolerance, all_of_them : float, float, bool
+        In s; largest relative defect of an interval; whether the end is a common instant.
+    rates, wrenches, tangents, where
         As above.
-    motion : ndarray (n, 8)
-        The same now.
-    levers : ndarray (n,)
-        See `System.set_scale`.
+    motion, loads, levers : ndarray (n, 8), (n,), (n,)
+        The same as `where`, now; and see `System.set_scale`.
     again : ndarray of bool (n,)
         Those that are due for another reason.
     moved : ndarray (n,)
         Overwritten with the changes of wrenches since bearings stood last over their sizes: those by motion
-        and by velocity added, for they may cancel, and what bends does not.
-    due : ndarray of bool (n,)
-        Overwritten.
+        and by velocity added, for they may cancel, and what bends does not; and `due`, of bool, with who is.
     """
     for b in range(len(rates)):
         largest = 0.0
@@ -203,11 +200,13 @@ def due_at(
                 change += abs(total)
             largest = _larger(change if i < 2 else change / levers[b], largest)
         moved[b] = largest / rates[b, SIZE]
+        force = math.hypot(wrenches[b, 0], wrenches[b, 1]) / rates[b, SIZE]
         bend = rates[b, BEND] if rates[b, BEND] <= LINEAR else max(rates[b, BEND], STIFFENS)
         due[b] = (
             all_of_them
             or again[b]
-            or end - rates[b, STANDS] >= _WHOLE * rates[b, INTERVAL]
+            or (rates[b, SIZE] > (1.0 + _SAME) * LIGHT * loads[b] and max(force, moved[b]) < SLACK)
+            or end - rates[b, STANDS] >= (1.0 - _SAME) * rates[b, INTERVAL]
             or bend * moved[b] ** 2 > tolerance
         )
 
@@ -280,7 +279,7 @@ def intervals_after(
         if not due[b]:
             continue
         span, interval = end - rates[b, STANDS], rates[b, INTERVAL]
-        if span >= _WHOLE * interval and sizes[b] <= CALM * tolerance:
+        if span >= (1.0 - _SAME) * interval and sizes[b] <= CALM * tolerance:
             interval = 2.0 * span
         if sizes[b] > tolerance:
             interval = min(interval, 0.5 * span)

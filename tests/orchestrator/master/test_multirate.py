@@ -7,7 +7,8 @@ from orchestrator.case.course import course_of
 from orchestrator.case.simulate import Execution, simulate
 from orchestrator.errors import ScenarioError
 from orchestrator.master.coupling import LinearImplicit, Multirate
-from orchestrator.master.coupling.multirate import PARTS
+from orchestrator.master.coupling.multirate import PARTS, SOON
+from orchestrator.master.coupling.rates import STANDS
 from orchestrator.master.stepping import Stepper
 from orchestrator.master.time_loop import Course
 from orchestrator.observers.ledger import Ledger
@@ -68,6 +69,23 @@ def test_what_a_step_that_counted_left_is_not_due_in_the_repetition_of_the_next(
     scheme._at(system, 1e-4, 1e-4)
     scheme.refuse()
     assert not scheme._room.again.any()
+    system.close()
+
+
+def test_a_bearing_that_was_hit_while_it_stood_behind_is_evaluated_soon_in_the_repetition(store, toy_fmus):
+    system = uneven(store, toy_fmus)
+    system.set_scale(LOAD, [1.0, 1.0])
+    scheme = Multirate(1e-3)
+    for k in range(3):
+        scheme.advance(system, k * 1e-4, 1e-4, common=False)
+    room = scheme._room
+    room.rates[:, STANDS] = 2e-4, 1e-4
+    room.rough[:] = True, False
+    assert scheme.refuse() == 1
+    room.rough[:] = False, True
+    assert scheme.refuse() == SOON
+    assert room.again.tolist() == [False, True]
+    assert scheme.refuse() == 1, "it is no surprise in the repetition"
     system.close()
 
 

@@ -8,7 +8,7 @@ import pytest
 from orchestrator.case.simulate import simulate
 from orchestrator.errors import FmuError
 from orchestrator.master.coupling import LinearImplicit, Newton
-from orchestrator.master.jumps import Jumps
+from orchestrator.master.jumps import STUBBORN, Jumps
 from orchestrator.master.stepping import DEEPEST, StepFailure, Stepper, ToleranceMissed
 from orchestrator.master.time_loop import Course
 from orchestrator.outcome import Outcome
@@ -98,8 +98,16 @@ def test_a_jump_of_the_force_is_stepped_over_and_counted(store, toy_fmus, share)
 def test_what_is_missed_over_a_jump_counts_as_an_impulse():
     """The step over it is a quarter of that with which it was met, and so is what the shaft feels."""
     jumps = Jumps()
-    assert [jumps.found(0.1, level, 1.0) for level in (2, 3, 4)] == [False, False, True]
+    assert [jumps.found(0.04, level, 1.0) for level in (2, 3, 4)] == [False, False, True]
     assert jumps.share(4) == 0.25
+
+
+def test_before_a_large_error_counts_as_a_jump_more_halvings_are_tried():
+    jumps = Jumps()
+    assert [jumps.found(0.1, level, 1.0) for level in range(6)] == [False] * STUBBORN + [True]
+    jumps = Jumps()
+    falling = [0.1, 0.12, 0.1, 0.08, 0.05, 0.03]  # as of what is damped so fast that long steps do not see it
+    assert not any(jumps.found(error, level, 1.0) for level, error in enumerate(falling))
 
 
 def test_a_step_taken_back_leaves_no_trace(store, toy_fmus):
