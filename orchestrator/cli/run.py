@@ -32,7 +32,7 @@ RUN_HELP = (
     "FMI tools), the summary (summary.txt, summary.json), the scenario as run (scenario.toml) and the "
     "figures.\n\n"
     "Options replace values of the scenario; what is not given stays as there. The reference scenario has "
-    "depth v1, coupling linear-implicit, reduction irs, step 1e-4 s."
+    "depth v1, coupling multirate, reduction irs."
 )
 RUN_EPILOG = f"""\
 [bold]Examples[/bold]

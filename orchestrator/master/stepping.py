@@ -229,10 +229,11 @@ class Stepper:
             return Verdict.TAKEN_BACK
         bears = self.scheme.many_rates and not self._system.rollback.possible
         if problem is not None and not (bears and isinstance(problem, ToleranceMissed)):
-            if self._system.rollback.possible:
+            if possible := self._system.rollback.possible:
                 self._take_back()
             self.counts.rejected += 1
-            if self.level == self._deepest or (self._tolerance is None and not self.scheme.iterates):
+            fixed = self._tolerance is None and not self.scheme.iterates
+            if fixed or not possible or self.level == self._deepest:
                 raise problem
             return Verdict.TAKEN_BACK
         self._jumps.passed(end)

@@ -102,7 +102,7 @@ def with_overrides(scenario: Scenario, overrides: Mapping[str, Any]) -> Scenario
     ScenarioError
         When the values do not fit.
     """
-    raw = scenario.model_dump(mode="json", exclude_defaults=True)
+    raw = scenario.model_dump(mode="json", exclude_defaults=True) | {"coupling": scenario.coupling}
     return check_with_train(replaced(raw, overrides), scenario.folder, scenario.title or "scenario")[0]
 
 

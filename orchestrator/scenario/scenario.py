@@ -7,11 +7,11 @@ train.  SI units and rad.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import Field, PlainValidator
+from pydantic import Field, PlainValidator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bearing_fmu import depths
@@ -180,7 +180,8 @@ class Scenario(Model):
         Keep the energy ledger: works of films, contact, unbalance, damping, and what the coupling created
         or lost; what that costs stands at the rotor's parameter ``track_work``.
     coupling : str
-        Name of the coupling, one of `COUPLINGS`.
+        Name of the coupling, one of `COUPLINGS`; where it is left out but a step is given, linear-implicit,
+        which goes by it.
     film : FilmSettings
         How the films are solved.
     record : RecordSettings
@@ -204,11 +205,19 @@ class Scenario(Model):
     step: Interval = 1e-4
     tolerance: Annotated[float, Field(gt=0.0, le=1.0)] | None = None
     ledger: bool = False
-    coupling: CouplingName = "linear-implicit"
+    coupling: CouplingName = "multirate"
     film: FilmSettings = FilmSettings()
     record: RecordSettings = RecordSettings()
     analysed_bearing: str | None = None
     folder: Path = Field(default=Path(), exclude=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fixed_with_a_step(cls, raw: Any) -> Any:
+        """A step without a coupling: that which goes by it."""
+        if isinstance(raw, Mapping) and "step" in raw and "coupling" not in raw:
+            return {**raw, "coupling": "linear-implicit"}
+        return raw
 
     @property
     def turns(self) -> bool:

@@ -122,7 +122,7 @@ class Multirate:
     def refuse(self) -> int:
         """Go back to the intervals before the step; what was above the tolerance is due in its repetition.
 
-        Where that is a surprise, at a bearing that stood behind, the repetition is `SOON` halvings shorter, for
+        Where that is a surprise, at a bearing that stood behind, the repetition is `SOON` halvings shorter:
         what happens before its law is a new one the rotor does not feel.
         """
         room = self._room

@@ -241,7 +241,7 @@ def relative(
     largest = answered = 0.0
     for b in range(len(size)):
         found = _magnitude(defect[b, 0], defect[b, 1], defect[b, 2], defect[b, 3], levers[b]) / size[b]
-        sizes[b], rough[b] = found, found > tolerance
+        sizes[b], rough[b] = found, not found <= tolerance
         largest = _larger(found, largest)
         answers = rates[b, STANDS] == start or not (found <= tolerance or again[b]) or math.isnan(found)
         answered = _larger(found, answered) if answers else answered

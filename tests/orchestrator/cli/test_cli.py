@@ -167,7 +167,7 @@ def test_a_run_is_what_was_asked_for(short_run):
     summary = json.loads((folder / "out" / "summary.json").read_text())
     assert summary["outcome"] == "finished" and summary["finished"] is True
     assert summary["depth"] == {"front": "v1", "rear": "v2"}
-    assert summary["steps"] == 200
+    assert summary["steps"] == record.attrs["accepted_steps"] < 200, "the default coupling has rates"
     weight = load_train("small").mass * 9.80665
     # Before the event the bearings carry the weight: mean over one revolution, unbalance averages out.
     carried = sum(row["force_mean"] for row in summary["bearings"] if row["phase"] == "before")

@@ -16,7 +16,9 @@ from tests.orchestrator.foreign import call, with_text
 @pytest.fixture
 def run(small_fmus, tmp_path, monkeypatch):
     """Run the small train with a bearing of somebody else, which fails as it is told."""
-    (tmp_path / "short.toml").write_text('train = "small"\nend = 0.01\n[record]\ninterval = 1e-4\n')
+    (tmp_path / "short.toml").write_text(
+        'train = "small"\nend = 0.01\nstep = 1e-4\n[record]\ninterval = 1e-4\n'
+    )
 
     def start(bearing, how, *options):
         monkeypatch.setenv("FAULT", how)
@@ -34,10 +36,12 @@ def run(small_fmus, tmp_path, monkeypatch):
     "exit 6, `not-finite`; bearing, time; no NaN in the motion that is recorded",
     guard="orchestrator.master.stepping:Stepper._problem",
 )
-def test_nan_from_a_unit_goes_no_further(faulty, run, tmp_path):
-    result = run(faulty, "nan")
+@pytest.mark.parametrize(("coupling", "time"), [("linear-implicit", 0.0015), ("multirate", 0.0019)])
+def test_nan_from_a_unit_goes_no_further(coupling, time, faulty, run, tmp_path):
+    """The unit cannot be taken back, so that no step is repeated."""
+    result = run(faulty, "nan", "--coupling", coupling)
     assert result.exit_code == Outcome.NOT_FINITE.status, result.output
-    assert "not-finite (exit status 6): at t = 0.0015 s: rear: " in result.stderr
+    assert f"not-finite (exit status 6): at t = {time} s: rear: " in result.stderr
     record = read_record(tmp_path / "out-partial")
     assert record["displacement"].notnull().all() and record.attrs["status"] == "not-finite"
 

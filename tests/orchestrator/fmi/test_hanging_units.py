@@ -24,7 +24,9 @@ HUNG = (
 @pytest.fixture
 def run(faulty, small_fmus, tmp_path):
     """Run the small train with the bearing; exit status, stderr, folder of the results."""
-    (tmp_path / "short.toml").write_text('train = "small"\nend = 0.01\n[record]\ninterval = 1e-4\n')
+    (tmp_path / "short.toml").write_text(
+        'train = "small"\nend = 0.01\nstep = 1e-4\n[record]\ninterval = 1e-4\n'
+    )
     room = tmp_path / "room"
     room.mkdir()
 

@@ -146,7 +146,7 @@ def test_overrides_merge_key_by_key_and_take_out(scenario_file):
 
 
 def test_a_tolerance_belongs_to_the_step_and_coupling_beside_it():
-    for name, tolerance in (("paper", 0.01), ("inertia", 0.02)):
+    for name, tolerance in (("paper", 0.01), ("tilting", 0.02)):
         assert load_scenario(name).tolerance == load_scenario(name, {"end": 1.5}).tolerance == tolerance
         for change in ({"step": 5e-5}, {"coupling": "gauss-seidel"}):
             assert load_scenario(name, change).tolerance is None
@@ -163,6 +163,20 @@ def test_a_step_alone_is_fixed_where_a_coupling_of_many_rates_would_have_none():
     assert (controlled.coupling, controlled.tolerance) == ("multirate", 5e-3)
     asked_for = load_scenario("paper", {"step": 5e-5, "coupling": "multirate"})
     assert (asked_for.coupling, asked_for.tolerance) == ("multirate", None)
+
+
+def test_without_a_coupling_it_is_that_of_many_rates_unless_a_step_is_given(scenario_file):
+    def coupling(**overrides):
+        scenario = load_scenario(scenario_file('train = "small"\nend = 0.4\n'), overrides)
+        again = with_overrides(scenario, {"title": "again"})
+        assert (again.coupling, again.step, again.tolerance) == (
+            scenario.coupling, scenario.step, scenario.tolerance,
+        )  # fmt: skip
+        return scenario.coupling
+
+    assert coupling() == coupling(tolerance=1e-3) == "multirate"
+    assert coupling(step=1e-4) == coupling(step=1e-4, tolerance=1e-3) == "linear-implicit"
+    assert coupling(step=1e-4, coupling="multirate") == "multirate"
 
 
 def test_a_train_is_found_beside_the_scenario(tmp_path, scenario_file):
