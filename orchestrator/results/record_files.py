@@ -110,8 +110,15 @@ class _Without(ArrayWriter):
             super().add(source, target, region)
 
 
+_TABLE = 1 << 16
+"""Bytes that HDF5 writes of a table at most, at once."""
+
+
 class _NeverFull(FileIO):
-    """A file that takes what there is no room for and drops it: HDF5 ends the process at an error.
+    """A file that takes what there is no room for: HDF5 ends the process at an error.
+
+    It reads what it has written of its tables, too, and ends the process where that is something else; so
+    these, which are small, are kept in memory. Numbers are dropped.
 
     Attributes
     ----------
@@ -121,16 +128,37 @@ class _NeverFull(FileIO):
 
     fault: OSError | None = None
 
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._kept: list[tuple[int, bytes]] = []
+
     def write(self, content: Any) -> int:
         """Write, or go on as if."""
-        count = memoryview(content).nbytes
+        start, count = self.tell(), memoryview(content).nbytes
         if self.fault is None:
             try:
                 return self._write(content, count)
             except OSError as error:
                 self.fault = error
-        self.seek(count, 1)
+        if count <= _TABLE:
+            self._kept.append((start, bytes(content)))
+        self.seek(start + count)
         return count
+
+    def readinto(self, buffer: Any) -> int:
+        """Read what was written, zeros in place of what was dropped."""
+        target = memoryview(buffer).cast("B")
+        start, count = self.tell(), len(target)
+        found = super().readinto(target)
+        if self.fault is not None:
+            target[found:] = bytes(count - found)
+            for at, content in self._kept:  # what was written later counts
+                first, last = max(at, start), min(at + len(content), start + count)
+                if first < last:
+                    target[first - start : last - start] = content[first - at : last - at]
+            found = count
+        self.seek(start + found)
+        return found
 
     def truncate(self, size: int | None = None) -> int:
         """Make the file as long, or go on as if."""

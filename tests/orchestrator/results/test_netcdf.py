@@ -1,12 +1,15 @@
 """Reading the own NetCDF files gives what xarray reads, and files of others are left to it."""
 
+from errno import EFBIG
+
 import h5netcdf
 import numpy as np
 import pytest
 import xarray as xr
 
 from orchestrator.results import netcdf
-from orchestrator.results.record_files import read_record, write_record
+from orchestrator.results.record_files import _TABLE, _NeverFull, read_record, write_record
+from tests.orchestrator.limits import largest_file
 from tests.orchestrator.results.synthetic_record import record
 
 
@@ -86,3 +89,25 @@ def test_what_is_no_such_file_is_an_error_of_reading(tmp_path):
     for name in ("text.nc", "none.nc"):
         with pytest.raises(OSError):
             netcdf.load(tmp_path / name)
+
+
+def test_a_file_without_room_reads_what_was_written_of_tables(tmp_path):
+    """HDF5 reads them again, and ends the process where they are something else."""
+
+    def found(start, count):
+        buffer = bytearray(b"?" * count)
+        file.seek(start)
+        assert file.readinto(buffer) == count and file.tell() == start + count
+        return bytes(buffer)
+
+    with _NeverFull(tmp_path / "full", "w+b") as file, largest_file(100):
+        assert file.write(b"a" * 80) == 80
+        assert file.fault is None
+        for content in (b"b" * 50, b"c" * (_TABLE + 1), b"d" * 10):
+            assert file.write(content) == len(content)
+        assert file.fault.errno == EFBIG
+        assert found(70, 60) == b"a" * 10 + b"b" * 50
+        file.seek(125)
+        file.write(b"e" * 3)
+        assert found(120, 12) == b"bbbbbeeebb" + bytes(2)
+        assert found(130 + _TABLE, 12) == b"\0" + b"d" * 10 + b"\0"
