@@ -32,6 +32,9 @@ RELATIVE_CLEARANCE = (1e-4, 1e-2)
 SOFTEST_CONTACT = 1e6
 """Least contact modulus that is not zero [Pa]; below it the unit is mistaken."""
 
+FASTEST_JOURNAL = 200.0
+"""Surface speed of a journal from which a speed is mistaken [m/s]; machines have up to 120."""
+
 
 def nearest_node(shaft: Train, z: float) -> int:
     """Node of the boundary of shoulders nearest to an axial position."""
@@ -239,6 +242,17 @@ def side_problems(data: TrainToml, nodes: Nodes) -> Iterator[Problem]:
         yield (
             ("bearing", without[0]),
             f"bearing {name!r}: height: missing; it must be given for all bearings or for none",
+        )
+
+
+def speed_problems(speed: float, diameter: float, name: str) -> Iterator[Problem]:
+    """Yield a speed [rad/s] that no journal of this diameter [m] has, such as one in rev/min."""
+    surface = 0.5 * diameter * speed
+    if surface > FASTEST_JOURNAL:
+        yield (
+            ("speed",),
+            f"speed = {speed!r}: the journal of {name!r} would run at {surface:.4g} m/s; allowed is at most "
+            f'{FASTEST_JOURNAL:g} m/s. It is in rad/s; did you give rev/min? Those are "{speed:g} rpm"',
         )
 
 

@@ -23,6 +23,7 @@ from rotor_fmu.train.checks import (
     order_problems,
     rotor_problems,
     side_problems,
+    speed_problems,
 )
 from rotor_fmu.train.coefficients import constant, table_text
 from rotor_fmu.train.derived import based
@@ -198,7 +199,8 @@ def _checked(
         return None, found
     shoulders, nodes = with_joints(shaft.shoulders, data, nodes)
     train = _train(data, shoulders, nodes, given)
-    return train, list(load_problems(train))
+    widest = max(train.bearings, key=lambda seat: seat.diameter)
+    return train, [*speed_problems(train.speed, widest.diameter, widest.name), *load_problems(train)]
 
 
 def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:

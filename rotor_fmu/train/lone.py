@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from rotor_fmu.train.bore import KEYS
-from rotor_fmu.train.checks import film_problems
+from rotor_fmu.train.checks import film_problems, speed_problems
 from rotor_fmu.train.entry import Entry, angle, positive, within
 from rotor_fmu.train.file import TrainFileError
 from rotor_fmu.train.oil import CURVE
@@ -65,6 +65,7 @@ def load_bearing(path: Path) -> LoneBearing | None:
         problems += explain(error, raw, LoneEntry)
     else:
         problems += ((("bearing",), text) for text in film_problems(given))
+        problems += speed_problems(entry.speed, entry.bearing.diameter or 0.0, entry.bearing.name)
     if entry is None or problems:
         raise TrainFileError([f"{path}: {text}" for text in source.located(problems)])
     bearing = entry.bearing

@@ -5,10 +5,10 @@ A bearing whose wrench bends little need not be evaluated at every step of the r
 evaluated again, at the end of an interval of its own.  What the law has missed by then is the defect, against
 the largest force of late: a force that turns with the rotor is as large once in a revolution.
 The rotor's steps are chosen by the bearings that are evaluated at each of them, the busy ones; it goes each
-in `PARTS`.  The interval
-of a bearing doubles where its defect is calm and halves where it is above `OWN` of the tolerance.  It is
-evaluated early when motion and velocity have changed its wrench so much that the defect, which goes with the
-square of that change, is to be expected above; so nothing need be taken back for it.
+in `PARTS`.  The interval of a bearing doubles where its defect is calm and halves where it is above `OWN` of
+the tolerance.  It is evaluated early when motion and velocity have changed its wrench so much that the
+defect, which goes with the square of that change, is to be expected above, and at every step while it bears
+next to nothing, for its tangent does not tell what may come; so little need be taken back for it.
 
 A unit takes one ``doStep`` from where it stands to where it is evaluated, so that communication points are in
 order and no unit steps twice over a time.  At common instants, some in a revolution and where something
@@ -146,24 +146,13 @@ class Multirate:
         room, end = self._at(system, time, step), time + step
         rates, due, moved = room.rates, room.due, room.moved
         wrenches, tangents, where = system.forces, system.tangent_rows, system.stands_at()
-        bends, changed = self.tolerance >= FINEST, (room.changed, room.numbers)
-        count = known.bend_on(
-            time, step, bends, common, rates, room.again, wrenches, tangents, where, system.laws, *changed
-        )
+        bends, told = self.tolerance >= FINEST, (wrenches, tangents, where)
+        changed = system.laws, room.changed, room.numbers
+        count = known.bend_on(time, step, bends, common, rates, room.again, *told, *changed)
         system.tell_laws(room.numbers[:count].tolist())
         system.carry_rotor(time, step, PARTS)
         motion, own = system.motion, OWN * self.tolerance
-        standing = (
-            rates,
-            wrenches,
-            tangents,
-            where,
-            motion,
-            system.loads,
-            system.levers,
-            room.again,
-            system.laws,
-        )
+        standing = rates, *told, motion, system.loads, system.levers, room.again, system.laws
         seen = moved, due, room.tangents, room.bent, room.numbers, room.spans
         count = find_due(time, step, own, common, *standing, *seen)
         system.bearing_group.carry(*room.orders(count))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -71,5 +72,6 @@ def _grounds(verdicts: Iterable[Verdict]) -> str:
 def _ground(found: Verdict) -> str:
     when = "" if found.phase in _ONLY else f", {found.phase}"
     against = f" against {found.bound_text()}" if found.bound > 0.0 else ""
-    note = f" ({found.note})" if found.note and not against else ""
+    told = not against or math.isinf(found.share)  # no share of the limit says how bad it is
+    note = f" ({found.note})" if found.note and told else ""
     return f"{found.limit} {shown(found.value, found.quantity)} at {found.place}{when}{against}{note}"

@@ -142,7 +142,10 @@ def test_the_least_damped_mode_is_held_against_the_least_decrement(record):
     assert found.value == pytest.approx(-growth / frequency, rel=1e-3)  # 2 pi zeta of a lightly damped mode
     assert (found.place, found.grade, found.share) == ("shaft", Grade.BEYOND, pytest.approx(4.0, rel=1e-3))
     shaky = record.assign_attrs(least_damped_frequency=frequency, least_damped_growth=0.1)
-    assert one(judge(shaky, load_limits()), "log decrement", "all", "").note == "20.00 Hz, unstable"
+    unstable = one(judge(shaky, load_limits()), "log decrement", "all", "")
+    assert unstable.note == "20.00 Hz, unstable"
+    assert conclude([unstable]).grounds.endswith(" at shaft against 0.1 (20.00 Hz, unstable)")
+    assert "Hz" not in conclude([found]).grounds
 
 
 def test_the_worst_of_each_limit_comes_first(verdicts):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -37,4 +38,7 @@ def test_every_problem_is_told(tmp_path):
         assert words in text
     path.write_text(DAM.read_text().replace('"0.2 mm"', "0.2"))
     with pytest.raises(TrainFileError, match=r"clearance = 0\.2; allowed"):
+        load_bearing(path)
+    path.write_text(re.sub("speed = .*", "speed = 9000.0", DAM.read_text()))
+    with pytest.raises(TrainFileError, match=r"speed = 9000\.0: the journal of 'wrong' would run at .* m/s"):
         load_bearing(path)

@@ -20,6 +20,13 @@ def case(old, new, line, words, name, outcome, *, guard):
 
 IN_TRAIN = [
     case(
+        "speed = 314.1592653589793", "speed = 3000.0", 2,
+        "speed = 3000.0: the journal of 'front' would run at 330 m/s; allowed is at most 200 m/s. It is in "
+        'rad/s; did you give rev/min? Those are "3000 rpm"',
+        "a speed in rev/min", "exit 2; line, value, the journal's surface speed and the greatest, the unit",
+        guard="rotor_fmu.train.checks:speed_problems",
+    ),
+    case(
         "z = 0.35", "z = 7.5", 16, "bearing 'front': z = 7.5 is outside the shaft; allowed is 0 to 6",
         "a bearing outside the shaft", "exit 2; file, line, key, value and the length of the shaft",
         guard="rotor_fmu.train.checks:_position",
