@@ -115,8 +115,9 @@ def comparison(costs: dict[str, list[Cost]]) -> str:
 def picture(costs: dict[str, list[Cost]], title: str, path: str) -> None:
     """Draw error against evaluations and against processor time."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-    figure = Figure(figsize=(9.0, 4.0), layout="constrained")
+    figure = Figure(figsize=(9.0, 4.5), layout="constrained")
     panels = figure.subplots(1, 2, sharey=True)
     for name, runs in costs.items():
         points = np.array(sorted(cost for cost in runs if cost.error < 1.0))
@@ -125,8 +126,13 @@ def picture(costs: dict[str, list[Cost]], title: str, path: str) -> None:
     for axes, label in zip(panels, ("evaluations of bearings", "processor time [s]"), strict=True):
         axes.set_xlabel(label)
         axes.grid(which="both", alpha=0.3)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axis.set_minor_formatter(NullFormatter())
     panels[0].set_ylabel("RMS force error [%]")
-    panels[1].legend(fontsize="small")
+    lines, names = panels[0].get_legend_handles_labels()
+    figure.legend(lines, names, loc="outside lower center", ncols=3, fontsize="small")
     figure.suptitle(title)
     figure.savefig(path)
 
