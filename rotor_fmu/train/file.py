@@ -199,8 +199,11 @@ def _checked(
         return None, found
     shoulders, nodes = with_joints(shaft.shoulders, data, nodes)
     train = _train(data, shoulders, nodes, given)
-    widest = max(train.bearings, key=lambda seat: seat.diameter)
-    return train, [*speed_problems(train.speed, widest.diameter, widest.name), *load_problems(train)]
+    films = [seat for seat in train.bearings if seat.has_film]
+    widest = max(films, key=lambda seat: seat.diameter, default=None)
+    if widest is not None:
+        found += speed_problems(train.speed, widest.diameter, widest.name)
+    return train, [*found, *load_problems(train)]
 
 
 def _sound(entries: Any, model: type[BaseModel]) -> Iterator[tuple[int, Any]]:
