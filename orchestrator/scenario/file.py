@@ -240,7 +240,7 @@ def replaced(raw: Mapping[str, Any], overrides: Mapping[str, Any]) -> dict[str, 
     """Merge overrides into what a file says, table by table; None takes a key out.
 
     A tolerance belongs to the step and the coupling beside it, and goes where they are replaced.  A step
-    alone is fixed, which a coupling of many rates has none of: the usual coupling is taken then.
+    alone is fixed, which a coupling of many rates has none of: it goes, see `Scenario.coupling`.
     """
     fixed = {} if overrides.keys().isdisjoint(("step", "coupling")) else {"tolerance": None}
     if "step" in overrides and "tolerance" not in overrides and raw.get("coupling") == "multirate":

@@ -172,9 +172,9 @@ class AffineStep:
         NoFiniteResult
             If the law has no solution at the end of the step, or numbers are not finite.
         """
-        np.subtract(F0, static.bearing_wrenches, out=self._offset)
         if isinstance(maps, WhirlMaps) and beyond is None:  # in one compiled loop
-            return self._whirl(maps, motion, journals, rotation[None], kick, static)
+            return self.advance_whirl(maps, motion, journals, F0, rotation[None], static, kick)
+        np.subtract(F0, static.bearing_wrenches, out=self._offset)
         offset = self._offset.reshape(-1)
         matrix, start, compliance = self._matrix, self._start, maps.compliance
         own = compliance.own, compliance.mixed
@@ -218,6 +218,7 @@ class AffineStep:
         F0: Array,
         rotations: Array,
         static: Equilibrium[np.float64],
+        kick: Array | None = None,
     ) -> Step:
         """Take steps of one length under the law last set, in one go; 1 + L S is solved for all at once.
 
@@ -225,6 +226,8 @@ class AffineStep:
         ----------
         rotations : ndarray, (steps, 4)
             Of each, otherwise as `advance` takes it.
+        kick : ndarray, (2 m,), optional
+            Added at the end of the last.
         others
             As `advance` takes them.
 
@@ -239,17 +242,6 @@ class AffineStep:
             As `advance`.
         """
         np.subtract(F0, static.bearing_wrenches, out=self._offset)
-        return self._whirl(maps, motion, journals, rotations, None, static)
-
-    def _whirl(
-        self,
-        maps: WhirlMaps,
-        motion: Array,
-        journals: Array,
-        rotations: Array,
-        kick: Array | None,
-        static: Equilibrium[np.float64],
-    ) -> Step:
         kick = maps.no_kick if kick is None else kick
         end, where = np.empty(motion.shape), np.empty(journals.shape)
         about = static.journals_at_rest, rotations, kick, motion, journals, end, where

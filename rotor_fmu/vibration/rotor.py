@@ -144,7 +144,7 @@ class Rotor(RotorMotion):
         self.step(t, H, F0, K, C, speed, now, free=True)
 
     def go(self, t: float, H: float, F0: Array, K: Array, C: Array, speed: float, parts: int = 1) -> bool:
-        """Take a macro step in equal parts in one go, each as `step` takes one, in a third of the time.
+        """Take a macro step in equal parts in one go, each as `step` takes one, in some half of the time.
 
         That is where nothing but the laws and the unbalances acts on a circular shaft at constant speed.
         Elsewhere nothing is done.
